@@ -74,6 +74,25 @@ HapticQuantity hapticQuantity(const Material& material, ViewMode mode) {
     return quantity;
 }
 
+namespace {
+
+/// Vertices at one position are one place.
+struct Places {
+    std::vector<uint32_t> of; ///< by vertex
+    size_t count = 0;
+};
+
+Places placesOf(const Mesh& mesh) {
+    Places places{std::vector<uint32_t>(mesh.positions.size()), 0};
+    if (!mesh.positions.empty())
+        places.count =
+            meshopt_generateVertexRemap(places.of.data(), nullptr, mesh.positions.size(),
+                                        mesh.positions.data(), mesh.positions.size(), sizeof(glm::vec3));
+    return places;
+}
+
+} // namespace
+
 std::vector<float> dihedralAngles(const Mesh& mesh) {
     const size_t corners = mesh.indices.size();
     std::vector<float> angles(mesh.positions.size(), 0.0f);
@@ -104,15 +123,12 @@ std::vector<float> dihedralAngles(const Mesh& mesh) {
     }
     // Vertices at one position may differ by normals or texture coordinates; an edge connects its own ones
     // only.
-    std::vector<uint32_t> place(mesh.positions.size());
-    const size_t places =
-        meshopt_generateVertexRemap(place.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
-                                    mesh.positions.size(), sizeof(glm::vec3));
-    std::vector<float> most(places, 0.0f);
+    const Places places = placesOf(mesh);
+    std::vector<float> most(places.count, 0.0f);
     for (size_t v = 0; v < angles.size(); ++v)
-        most[place[v]] = std::max(most[place[v]], angles[v]);
+        most[places.of[v]] = std::max(most[places.of[v]], angles[v]);
     for (size_t v = 0; v < angles.size(); ++v)
-        angles[v] = most[place[v]];
+        angles[v] = most[places.of[v]];
     return angles;
 }
 
@@ -175,13 +191,9 @@ double angleBetween(const Mesh& mesh, uint32_t a, uint32_t b) {
 } // namespace
 
 std::vector<float> feltSteps(const Mesh& mesh) {
-    std::vector<uint32_t> place(mesh.positions.size());
-    const size_t places =
-        mesh.positions.empty()
-            ? 0
-            : meshopt_generateVertexRemap(place.data(), nullptr, mesh.positions.size(), mesh.positions.data(),
-                                          mesh.positions.size(), sizeof(glm::vec3));
-    std::vector<float> most(places, -1.0f);
+    const Places places = placesOf(mesh);
+    const std::vector<uint32_t>& place = places.of;
+    std::vector<float> most(places.count, -1.0f);
     const std::vector<EdgeSide> sides = edgeSidesOf(mesh, place);
     for (size_t i = 0, end = 0; i < sides.size(); i = end) {
         for (end = i + 1;

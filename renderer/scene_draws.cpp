@@ -1,6 +1,5 @@
 // Selects and orders the instances to draw.
 
-#include "engine/scene/filled_instance.h"
 #include "renderer/scene_renderer_impl.h"
 
 #include <algorithm>

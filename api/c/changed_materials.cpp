@@ -23,11 +23,6 @@ const HapticNumber& numberOf(std::string_view name) {
     return *number;
 }
 
-void requireMaterial(uint64_t material, size_t count) {
-    if (material >= count)
-        refuseArgument("material", std::to_string(material) + ", and there are " + std::to_string(count));
-}
-
 void requireWithin(const HapticNumber& number, double value) {
     if (value >= number.least && value <= number.most)
         return;
@@ -43,7 +38,7 @@ ChangedMaterials::ChangedMaterials(std::shared_ptr<TouchedScene> scene)
 
 void ChangedMaterials::set(uint64_t material, std::string_view name, double value) {
     const HapticNumber& number = numberOf(name);
-    requireMaterial(material, materials_.size());
+    requireBelow(material, materials_.size(), "material");
     const Scene& source = *scene_->source();
     const auto index = static_cast<size_t>(material);
     if (!std::isnan(value))
@@ -86,7 +81,7 @@ SceneIdentity ChangedMaterials::identity(bool felt) const {
 
 double feltNumber(const Scene& scene, uint64_t material, std::string_view name) {
     const HapticNumber& number = numberOf(name);
-    requireMaterial(material, scene.materials.size());
+    requireBelow(material, scene.materials.size(), "material");
     const std::optional<float> value =
         (scene.materials[static_cast<size_t>(material)].haptic.*number.settled).value;
     return value ? *value : std::numeric_limits<double>::quiet_NaN();

@@ -32,6 +32,12 @@ class Refused : public std::runtime_error {
 };
 [[noreturn]] void refuseArgument(const std::string& argument, const std::string& problem);
 
+/// There are `count` of what the argument numbers.
+inline void requireBelow(uint64_t index, size_t count, const char* argument) {
+    if (index >= count)
+        refuseArgument(argument, std::to_string(index) + ", and there are " + std::to_string(count));
+}
+
 /// Any thread. Zero is no handle.
 [[nodiscard]] uintptr_t newHandle(std::shared_ptr<Object> object);
 /// Null where the handle names nothing.

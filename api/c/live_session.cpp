@@ -262,9 +262,7 @@ ts_pose LiveSession::pose(uint64_t object) {
     requireOpen();
     requireScene();
     const HapticScene& haptic = *scene_->haptic();
-    if (object >= haptic.objects.size())
-        refuseArgument("object",
-                       std::to_string(object) + ", and there are " + std::to_string(haptic.objects.size()));
+    requireBelow(object, haptic.objects.size(), "object");
     const Similarity& rest = haptic.restMotions[static_cast<size_t>(object)].workspaceFromObject;
     DrivenPose now;
     now.now = rest;

@@ -76,9 +76,7 @@ size_t trianglesOf(const TouchedScene& scene, float* corners, size_t capacity) {
 
 ts_object_info objectInfo(const TouchedScene& scene, uint64_t object) {
     const HapticScene& haptic = *scene.haptic();
-    if (object >= haptic.objects.size())
-        refuseArgument("object",
-                       std::to_string(object) + ", and there are " + std::to_string(haptic.objects.size()));
+    requireBelow(object, haptic.objects.size(), "object");
     const auto index = static_cast<size_t>(object);
     ts_object_info info{};
     const glm::dvec3& centre = haptic.restMotions[index].workspaceFromObject.translation;

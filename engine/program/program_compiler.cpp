@@ -114,29 +114,11 @@ ProgramCompiler installedProgramCompiler() {
     return compiler;
 }
 
-namespace {
-thread_local WaitingCompiler* waitingCompiler = nullptr;
-}
-
-WaitingCompiler::WaitingCompiler(ProgramCompiler compiler) : compiler_(std::move(compiler)) {
-    waitingCompiler = this;
-}
-
-WaitingCompiler::~WaitingCompiler() {
-    waitingCompiler = nullptr;
-}
-
 void WaitingCompiler::start() {
     if (process_ == nullptr)
         process_ = std::make_unique<WaitingProcess>(
             compiler_.program.string(),
             std::vector<std::string>{compiler_.program.filename().string(), "--wait"}, compiler_.limits);
-}
-
-std::unique_ptr<WaitingProcess> WaitingCompiler::take(const ProgramCompiler& compiler) {
-    if (waitingCompiler == nullptr || waitingCompiler->compiler_.program != compiler.program)
-        return nullptr;
-    return std::move(waitingCompiler->process_);
 }
 
 std::string placeInSource(const ProgramSource& source, const std::string& file, uint32_t line) {
@@ -148,15 +130,15 @@ std::string placeInSource(const ProgramSource& source, const std::string& file, 
 }
 
 std::vector<uint32_t> compileProgram(const ProgramSource& source, const ProgramCompiler& compiler,
-                                     const std::function<bool()>& stop) {
+                                     const std::function<bool()>& stop, WaitingCompiler* waiting) {
     std::vector<uint8_t> bytes;
     for (const std::string& text : {std::string(kSource), declarationOf(source.parameters), source.text}) {
         bytes.insert(bytes.end(), text.begin(), text.end());
         bytes.push_back(0);
     }
-    const std::unique_ptr<WaitingProcess> waiting = WaitingCompiler::take(compiler);
+    const std::unique_ptr<WaitingProcess> started = waiting != nullptr ? waiting->take() : nullptr;
     const ProcessAnswer answer =
-        waiting != nullptr ? waiting->ask(bytes, kMaxSpirvBytes, stop)
+        started != nullptr ? started->ask(bytes, kMaxSpirvBytes, stop)
                            : askProcess(compiler.program.string(), {compiler.program.filename().string()},
                                         compiler.limits, memoryFile(bytes), kMaxSpirvBytes, stop);
     if (answer.end != ProcessAnswer::End::Exited || answer.status != 0)

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -23,19 +24,15 @@ struct ProgramCompiler {
 [[nodiscard]] ProgramCompiler installedProgramCompiler();
 
 /// A compiler that has started before there is anything to compile: nine tenths of its time go by with what
-/// is the same for each program. Made and destroyed on one thread, whose compileProgram then uses it; one at
-/// a time.
+/// is the same for each program. One thread.
 class WaitingCompiler {
   public:
-    explicit WaitingCompiler(ProgramCompiler compiler);
-    ~WaitingCompiler();
-    WaitingCompiler(const WaitingCompiler&) = delete;
-    WaitingCompiler& operator=(const WaitingCompiler&) = delete;
+    explicit WaitingCompiler(ProgramCompiler compiler) : compiler_(std::move(compiler)) {}
 
     /// Starts one where none waits.
     void start();
-    /// The one that waits; null: none, or another program is asked for.
-    [[nodiscard]] static std::unique_ptr<WaitingProcess> take(const ProgramCompiler& compiler);
+    /// The one that waits, which waits no more; null: none.
+    [[nodiscard]] std::unique_ptr<WaitingProcess> take() { return std::move(process_); }
 
   private:
     ProgramCompiler compiler_;
@@ -44,10 +41,11 @@ class WaitingCompiler {
 
 /// SPIR-V with one function, whose uniform block has the source's parameters. Throws Error with the line and
 /// a remedy, also where the compiler crashes on the source; Cancelled. `stop` is asked every 20 ms. Any
-/// thread but the servo.
+/// thread but the servo. `waiting`: one of `compiler` that may have started; null: none.
 [[nodiscard]] std::vector<uint32_t> compileProgram(const ProgramSource& source,
                                                    const ProgramCompiler& compiler,
-                                                   const std::function<bool()>& stop);
+                                                   const std::function<bool()>& stop,
+                                                   WaitingCompiler* waiting = nullptr);
 
 /// "line 12" of the source for a place that the compiler names: a file of its own and a line; empty where the
 /// source has no such line.

@@ -211,6 +211,7 @@ std::vector<ProgramFile> programsFor(ImportContext& context, const nlohmann::jso
         return files;
     for (const std::string& uri : programUris(root)) {
         ProgramFile file;
+        bool exists = false;
         try {
             const std::filesystem::path own = resolveUri(context, "shader.source", from, uri);
             file.file = resolveUri(context, "shader.source", to, uri);
@@ -221,13 +222,13 @@ std::vector<ProgramFile> programsFor(ImportContext& context, const nlohmann::jso
             };
             file.text = typed != edited.end() ? typed->text : text(own);
             std::error_code none;
-            if (std::filesystem::exists(file.file, none) && text(file.file) == file.text)
+            exists = std::filesystem::exists(file.file, none);
+            if (exists && text(file.file) == file.text)
                 continue;
         } catch (const Error&) {
             continue;
         }
-        std::error_code none;
-        if (std::filesystem::exists(file.file, none))
+        if (exists)
             throw Error(file.file.string(), "", "is another program than the model's; nothing was written",
                         "move it away, or save the model into another folder");
         files.push_back(std::move(file));

@@ -2,7 +2,6 @@
 
 #include "engine/core/error.h"
 #include "engine/scene/clip_mesh.h"
-#include "engine/scene/filled_instance.h"
 
 #include <algorithm>
 #include <cmath>

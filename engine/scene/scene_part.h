@@ -61,6 +61,9 @@ void isolateNodes(const Scene& scene, std::span<const int> nodes, ScenePart& par
 /// The plane in the frame of a mesh whose pose in the scene is `sceneFromMesh`: dot(plane, (p, 1)) is the
 /// distance in the scene, m.
 [[nodiscard]] glm::dvec4 planeInMesh(const ClipPlane& plane, const glm::dmat4& sceneFromMesh);
+/// True for an instance that is felt as a distance field: a clipping plane leaves a flat face on it. A mesh
+/// is open where it is cut.
+[[nodiscard]] bool isFilled(const Scene& scene, const Instance& instance);
 
 /// A scene with the part's triangles and without hidden instances, as a stroke is laid on it: nodes,
 /// materials, animations and bounds are those of the whole; it has no images, cameras and warnings.

@@ -20,6 +20,11 @@ struct StartTextures {
     PersistentTextureSize size;
     /// By instance of the scene (Scene::instances).
     std::map<int, std::shared_ptr<const std::vector<float>>> values;
+    /// Null: none.
+    [[nodiscard]] std::shared_ptr<const std::vector<float>> of(int instance) const {
+        const auto found = values.find(instance);
+        return found != values.end() ? found->second : nullptr;
+    }
 };
 
 /// Immutable.

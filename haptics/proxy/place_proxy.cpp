@@ -41,6 +41,11 @@ bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& stat
     return true;
 }
 
+void letGo(DeviceState& state) noexcept {
+    state.forgetTouch();
+    state.mustLeave = true;
+}
+
 void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {
     const auto gone = [&](int object) {
         return object >= 0 && scene.objects[static_cast<size_t>(object)]->empty();
@@ -51,8 +56,7 @@ void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState
     for (uint32_t i = 0; state.placed && i < state.rest.contactCount; ++i)
         touched = touched || gone(state.rest.contacts[i].object);
     if (touched) {
-        state.forgetTouch();
-        state.mustLeave = true;
+        letGo(state);
     } else if (gone(state.reference)) {
         changeReference(state, motions, nearestObject(scene, motions, state.hip));
     }
@@ -78,8 +82,7 @@ void takeUpReshaped(const HapticScene& scene, ObjectMotions motions, std::span<c
         if (field == nullptr ||
             field->value(motions[k].workspaceFromObject.inversePoint(proxy)) >= -field->voxel())
             continue;
-        state.forgetTouch();
-        state.mustLeave = true;
+        letGo(state);
         return;
     }
 }

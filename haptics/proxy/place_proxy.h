@@ -23,6 +23,10 @@ namespace touchstone {
 /// the model, clear of it (clear_of_model.h); the hand then counts as having left.
 [[nodiscard]] bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
+/// The hand begins again once it is clear of the model: what stood behind a surface that is gone, or one that
+/// has come to be around it, would push at full depth.
+void letGo(DeviceState& state) noexcept;
+
 /// Between two ticks, after objects of the scene have lost all their triangles (SceneSwap::SameGeometry).
 /// `motions`: of the preceding tick. A hand that touched one of them begins again, once it is clear of what
 /// is left: what stood behind it would push at full depth. Any other touch goes on, in the frame of an object

@@ -83,10 +83,8 @@ void takeUpPart(const HapticScene& scene, const HapticScene* before, ObjectMotio
                  (!isEnclosed(scene, motions, proxy) ||
                   (before != nullptr && isEnclosed(*before, motions, proxy)));
     }
-    if (goesOn)
-        return;
-    state.forgetTouch();
-    state.mustLeave = true;
+    if (!goesOn)
+        letGo(state);
 }
 
 } // namespace touchstone

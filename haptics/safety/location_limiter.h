@@ -3,6 +3,7 @@
 // state.
 
 #include "engine/device_io/pad_command.h"
+#include "haptics/settings/tick_flags.h"
 
 namespace touchstone {
 
@@ -18,6 +19,11 @@ struct LocationInput {
     PadLimits limits;
     double dt = 0.0; ///< s since the last command
 };
+
+/// LocationInput::forceFelt of a tick with these flags.
+[[nodiscard]] constexpr bool isForceFelt(bool forceOn, bool placeKnown, uint32_t flags) {
+    return forceOn && placeKnown && !has(flags, TickFlag::ForceFault) && !has(flags, TickFlag::SafetyLatched);
+}
 
 /// Makes every PadCommand. Invariants, for any input:
 /// - the command is finite and |location| <= limits.reach; a device without a display gets the middle;

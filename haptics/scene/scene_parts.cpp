@@ -3,8 +3,8 @@
 #include "engine/scene/clip_mesh.h"
 #include "haptics/program/felt_program.h"
 #include "haptics/scene/scene_programs.h"
+#include "haptics/scene/shape_object.h"
 #include "haptics/shape/field/cut_field.h"
-#include "haptics/shape/mesh/cut_object.h"
 
 #include <optional>
 #include <utility>
@@ -13,8 +13,8 @@ namespace touchstone {
 
 namespace {
 
-/// Name, material, pose and size, for what names the object, without geometry.
-std::shared_ptr<HapticObject> bareCopyOf(const HapticObject& object) {
+/// Keeps name, material, pose and size, for what names the object.
+std::shared_ptr<const HapticObject> emptied(const HapticObject& object) {
     auto empty = std::make_shared<HapticObject>();
     empty->name = object.name;
     empty->instance = object.instance;
@@ -23,11 +23,6 @@ std::shared_ptr<HapticObject> bareCopyOf(const HapticObject& object) {
     empty->objectFromMesh = object.objectFromMesh;
     empty->diagonal = object.diagonal;
     empty->oneSided = object.oneSided;
-    return empty;
-}
-
-std::shared_ptr<const HapticObject> emptied(const HapticObject& object) {
-    const std::shared_ptr<HapticObject> empty = bareCopyOf(object);
     empty->vertices.emplace_back(0.0f); // spare, as in every object
     return empty;
 }
@@ -57,13 +52,13 @@ class ObjectCutter {
         instance.mesh = 0;
         std::optional<Mesh> left = clippedMesh(mesh, planeInMesh(plane_, instance.sceneFromMesh),
                                                clipTolerance(mesh, instance.sceneFromMesh));
-        if (object->shape !=
-            nullptr) // a plane beside the body would have a cap of it within the proxy's radius
-            return left && left->indices.empty() ? emptied(*object) : cutShape(*object);
+        // A field, too: a plane beside its body would leave a cap of it within the proxy's radius.
+        if (left && left->indices.empty())
+            return emptied(*object);
+        if (object->shape != nullptr)
+            return cutShape(*object);
         if (!left)
             return object; // its sphere crosses the plane, but no triangle does
-        if (left->indices.empty())
-            return emptied(*object);
         cut_.meshes[0] = *std::move(left);
         const auto& material = whole_.materials[static_cast<size_t>(object->material)];
         return buildCutObject(cut_, object->instance, mesh, whole_.workspaceFromScene,
@@ -77,12 +72,7 @@ class ObjectCutter {
         const Similarity place = whole_.workspaceFromScene.inverseTimes(object.workspaceFromObject);
         const glm::dvec3 normal = glm::conjugate(place.rotation) * plane_.normal;
         const double offset = -plane_.distance(place.translation) / place.scale;
-        std::shared_ptr<HapticObject> cut = bareCopyOf(object);
-        cut->closed = true;
-        cut->anySmooth = object.anySmooth;
-        cut->boundingRadius = object.boundingRadius;
-        cut->shape = std::make_shared<CutField>(field, normal, offset);
-        return cut;
+        return withShape(object, std::make_shared<CutField>(field, normal, offset));
     }
 
     const HapticScene& whole_;

@@ -33,14 +33,13 @@ std::shared_ptr<const program::StartTextures> startTextures(const Scene& source,
     start->size = felt.texture;
     const LoadOptions options;
     const ImportContext context(source.path, options);
+    const std::vector<int> surfaces = surfacesOf(source);
     for (TextureValues& object :
-         readTextureValues(context, stated, felt.texture, place + ".persistentTexture.values")) {
-        int surface = 0;
-        for (size_t i = 0; i < source.instances.size(); ++i)
-            if (source.instances[i].node == object.node && surface++ == object.surface)
+         readTextureValues(context, stated, felt.texture, place + ".persistentTexture.values"))
+        for (size_t i = 0; i < surfaces.size(); ++i)
+            if (source.instances[i].node == object.node && surfaces[i] == object.surface)
                 start->values[static_cast<int>(i)] =
                     std::make_shared<const std::vector<float>>(std::move(object.values));
-    }
     return start;
 }
 
@@ -96,10 +95,7 @@ PersistentTextureSize textureOf(const HapticScene& haptic, const HapticObject& o
 
 std::shared_ptr<const std::vector<float>> startOf(const HapticScene& haptic, const HapticObject& object) {
     const auto& start = haptic.materials[static_cast<size_t>(object.material)].program->start;
-    if (start == nullptr)
-        return nullptr;
-    const auto found = start->values.find(object.instance);
-    return found != start->values.end() ? found->second : nullptr;
+    return start != nullptr ? start->of(object.instance) : nullptr;
 }
 
 /// A part of a scene has the warnings of the whole.

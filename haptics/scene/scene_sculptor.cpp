@@ -2,6 +2,7 @@
 
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
+#include "haptics/scene/shape_object.h"
 #include "haptics/shape/field/cut_field.h"
 #include "haptics/shape/field/field_colors.h"
 #include "haptics/shape/field/mesh_to_field.h"
@@ -264,24 +265,11 @@ void SceneSculptor::renew(size_t object) {
     const std::shared_ptr<HapticScene> scene = copyOf(*scene_);
     scene->warnings = scene_->warnings;
     scene->shareNeighbourhoods(*scene_);
-    auto reshaped = std::make_shared<HapticObject>();
     const HapticObject& old = *scene_->objects[object];
-    reshaped->name = old.name;
-    reshaped->instance = old.instance;
-    reshaped->material = old.material;
-    reshaped->workspaceFromObject = old.workspaceFromObject;
-    reshaped->objectFromMesh = old.objectFromMesh;
-    reshaped->closed = true;
-    reshaped->anySmooth = old.anySmooth;
-    reshaped->oneSided = old.oneSided;
     const auto field = std::make_shared<FieldShape>(sculptorOf(object).grid());
     field->setColors(sculptorOf(object).colors());
-    if (const auto* const cut = dynamic_cast<const CutField*>(old.shape.get()))
-        reshaped->shape = cut->of(field);
-    else
-        reshaped->shape = field;
-    reshaped->boundingRadius = reshaped->shape->boundingRadius();
-    reshaped->diagonal = 2.0 * reshaped->boundingRadius;
+    const auto* const cut = dynamic_cast<const CutField*>(old.shape.get());
+    auto reshaped = withShape(old, cut != nullptr ? std::shared_ptr<const Shape>(cut->of(field)) : field);
     scene->boundingRadii[object] = reshaped->boundingRadius;
     scene->restSpheres[object] = boundingSphere(*reshaped, reshaped->workspaceFromObject);
     scene->objects[object] = std::move(reshaped);

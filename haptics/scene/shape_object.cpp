@@ -38,6 +38,14 @@ std::shared_ptr<HapticObject> objectOf(std::string name, std::shared_ptr<const S
 
 } // namespace
 
+std::shared_ptr<HapticObject> withShape(const HapticObject& object, std::shared_ptr<const Shape> shape) {
+    auto made = objectOf(object.name, std::move(shape), object.material, object.workspaceFromObject);
+    made->instance = object.instance;
+    made->objectFromMesh = object.objectFromMesh;
+    made->oneSided = object.oneSided;
+    return made;
+}
+
 void keepFieldsIn(const FieldCache& cache) {
     fieldCache() = cache;
 }
@@ -123,11 +131,7 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
     const bool byError = use.fieldError > 0.0f && !(use.voxelSize > 0.0f);
     Grid grid = byError ? gridOfError(mesh, request, use.fieldError, objectPerModel, progress, warnings)
                         : gridOfVoxel(mesh, request, use.voxelSize, objectPerModel, progress, warnings);
-    const auto object = objectOf(mesh.name, std::make_shared<FieldShape>(std::move(grid)), mesh.material,
-                                 mesh.workspaceFromObject);
-    object->instance = mesh.instance;
-    object->objectFromMesh = mesh.objectFromMesh;
-    return object;
+    return withShape(mesh, std::make_shared<FieldShape>(std::move(grid)));
 }
 
 std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instance,

@@ -16,6 +16,10 @@ namespace touchstone {
 int addShape(HapticScene& scene, std::string name, std::shared_ptr<const Shape> shape, int material,
              const Similarity& workspaceFromObject);
 
+/// `object` with `shape` in place of its geometry, in the same frame.
+[[nodiscard]] std::shared_ptr<HapticObject> withShape(const HapticObject& object,
+                                                      std::shared_ptr<const Shape> shape);
+
 /// m, workspace: how far from its surface a field tells distances. Inside 1.5 times as deep as the greatest
 /// force of the default limits pushes; outside the largest ball (the panel's largest proxy radius, and what
 /// counts as near a model) with the same room.

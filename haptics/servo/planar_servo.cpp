@@ -129,14 +129,13 @@ void PlanarServo::makeTick(double dt, bool late) noexcept {
     if (port_.pad != nullptr) {
         const PadLimits limits = port_.pad(port_.context);
         // The pitch alone moves it along; across, the plane has nothing.
-        now_.location = LocationLimiter::limit({.wanted = {now_.felt.location, 0.0},
-                                                .touching = now_.felt.touching,
-                                                .forceFelt = !forceSwitch_.off() && sample.valid &&
-                                                             !has(now_.flags, TickFlag::ForceFault) &&
-                                                             !has(now_.flags, TickFlag::SafetyLatched),
-                                                .limits = limits,
-                                                .dt = dt},
-                                               location_);
+        now_.location =
+            LocationLimiter::limit({.wanted = {now_.felt.location, 0.0},
+                                    .touching = now_.felt.touching,
+                                    .forceFelt = isForceFelt(!forceSwitch_.off(), sample.valid, now_.flags),
+                                    .limits = limits,
+                                    .dt = dt},
+                                   location_);
         if (limits.reach > 0.0 && port_.applyPad != nullptr)
             port_.applyPad(port_.context, now_.location);
     }

@@ -31,6 +31,14 @@ void refuseStale(DeviceSample& sample) noexcept {
     sample.valid = sample.valid && sample.age <= sample.limits.staleAge; // a NaN age is not fresh
 }
 
+/// What goes with a scene; null: nothing, or it is no longer kept.
+template <class Kept>
+std::shared_ptr<Kept> ofScene(const std::deque<std::pair<uint32_t, std::shared_ptr<Kept>>>& kept,
+                              uint32_t scene) {
+    const auto found = std::ranges::find(kept, scene, [](const auto& each) { return each.first; });
+    return found != kept.end() ? found->second : nullptr;
+}
+
 } // namespace
 
 struct ServoLoop::Touch {
@@ -154,8 +162,7 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     holdTextures(number, world);
     if (driven != nullptr)
         driven_.emplace_back(number, std::move(driven));
-    Offer made = offerOf(std::move(scene), std::move(world), number, swap);
-    auto offer = std::make_shared<const Offer>(std::move(made));
+    auto offer = std::make_shared<const Offer>(offerOf(std::move(scene), std::move(world), number, swap));
     // A stepped loop computes the vertices itself, so that it is deterministic.
     if (thread_.joinable())
         offer->world.publishAhead(animationTime(
@@ -180,8 +187,8 @@ ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, Wo
                 .number = number,
                 .geometry = offeredGeometry_,
                 .root = number,
+                .settings = offeredSettings_.back(), // a scene before it may have brought them
                 .part = offeredPart_};
-    offer.settings = offeredSettings_.back(); // a scene before it may have brought them
     if (otherPart) {
         offer.before = offeredLast_;
         offer.partBefore = std::move(lastScene_);
@@ -228,20 +235,16 @@ std::shared_ptr<PersistentTextures> ServoLoop::newestTextures() {
 }
 
 std::shared_ptr<PersistentTextures> ServoLoop::texturesOf(uint32_t scene) const {
-    const auto found =
-        std::ranges::find(textures_, scene, &std::pair<uint32_t, std::shared_ptr<PersistentTextures>>::first);
-    return found != textures_.end() ? found->second : nullptr;
+    return ofScene(textures_, scene);
 }
 
 const DrivenState* ServoLoop::drivenBefore(const TickRecord& record) const {
-    const auto found =
-        std::ranges::find(driven_, record.root, &std::pair<uint32_t, std::shared_ptr<DrivenObjects>>::first);
-    return found != driven_.end() ? found->second->before(record.tick) : nullptr;
+    const std::shared_ptr<DrivenObjects> driven = ofScene(driven_, record.root);
+    return driven != nullptr ? driven->before(record.tick) : nullptr;
 }
 
 bool ServoLoop::drives(uint32_t root) const {
-    return std::ranges::find(driven_, root, &std::pair<uint32_t, std::shared_ptr<DrivenObjects>>::first) !=
-           driven_.end();
+    return ofScene(driven_, root) != nullptr;
 }
 
 void ServoLoop::setTool(const LiveTool& tool) {
@@ -339,10 +342,9 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     }
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
     for (DeviceState& device : touch.devices) {
-        device.forgetTouch();
+        letGo(device);
         device.dents = {};
         device.grasp = {};
-        device.mustLeave = true;
         ForceLimiter::restartRamp(device.limiter);
     }
     for (ToolPath& path : touch.paths)

@@ -81,4 +81,12 @@ class Shape {
     [[nodiscard]] virtual uint64_t identity() const noexcept = 0;
 };
 
+/// The inside of a potential field.
+class PotentialShape : public Shape, public PotentialField {
+  public:
+    [[nodiscard]] const PotentialField* potential() const noexcept final { return this; }
+    [[nodiscard]] bool hasShadingNormals() const noexcept final { return true; }
+    [[nodiscard]] bool contains(const glm::dvec3& point) const noexcept final { return value(point) < 0.0; }
+};
+
 } // namespace touchstone

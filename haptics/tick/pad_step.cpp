@@ -12,13 +12,11 @@ PadCommand padStep(const DeviceSample& sample, const HapticOutput& output, bool 
     const glm::dvec3 out = output.proxy - output.hip;
     const double length = glm::length(out);
     const bool touching = output.contacts > 0 && length > 0.0 && std::isfinite(length);
-    const bool felt = forceEnabled && sample.valid && !has(output.flags, TickFlag::ForceFault) &&
-                      !has(output.flags, TickFlag::SafetyLatched);
     const glm::dquat turn = sample.mapping.workspaceFromDevice.rotation * sample.orientation;
     return LocationLimiter::limit(
         {.wanted = touching ? FingerPad{}.locationOn(turn, out / length) : glm::dvec2(0.0),
          .touching = touching,
-         .forceFelt = felt,
+         .forceFelt = isForceFelt(forceEnabled, sample.valid, output.flags),
          .limits = limits,
          .dt = dt},
         state);

@@ -12,7 +12,7 @@ namespace touchstone::study {
 /// For contact=virtualPoint, whose gradient is the spline's own; the sweep's questions go to the trilinear
 /// field. Outside of the nodes about the surface (next to where the field is flat) splines overshoot the
 /// flat value by less than an eighth of a node's difference.
-class TricubicField final : public Shape, public PotentialField {
+class TricubicField final : public PotentialShape {
   public:
     explicit TricubicField(std::shared_ptr<const FieldShape> field) : field_(std::move(field)) {}
 
@@ -22,7 +22,6 @@ class TricubicField final : public Shape, public PotentialField {
     /// other axis add up to at most 5/4, and there are three axes: sqrt(3) (3/2) (5/4)^2 < 4.06.
     [[nodiscard]] double lipschitz() const noexcept override { return 4.06 * field_->lipschitz(); }
     [[nodiscard]] double voxel() const noexcept override { return field_->voxel(); }
-    [[nodiscard]] const PotentialField* potential() const noexcept override { return this; }
 
     [[nodiscard]] double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                double limit) const noexcept override {
@@ -39,10 +38,6 @@ class TricubicField final : public Shape, public PotentialField {
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override {
         return field_->shadingNormal(feature, point);
-    }
-    [[nodiscard]] bool hasShadingNormals() const noexcept override { return true; }
-    [[nodiscard]] bool contains(const glm::dvec3& point) const noexcept override {
-        return value(point) < 0.0;
     }
     [[nodiscard]] double boundingRadius() const noexcept override { return field_->boundingRadius(); }
     [[nodiscard]] uint64_t memoryBytes() const noexcept override { return field_->memoryBytes(); }

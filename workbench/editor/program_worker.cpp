@@ -112,7 +112,7 @@ void ProgramWorker::run() {
         if (!job)
             job = changedFile();
         if (job && job->report.program == nullptr)
-            compileNow(*std::move(job));
+            compileNow(*std::move(job), compiler);
         else if (job)
             finish(*std::move(job));
     }
@@ -187,11 +187,11 @@ bool ProgramWorker::superseded(const Job& job) {
            (!job.report.fromFile && sources_[job.report.source].version != job.version);
 }
 
-void ProgramWorker::compileNow(Job job) {
+void ProgramWorker::compileNow(Job job, WaitingCompiler& compiler) {
     ProgramReport& report = job.report;
     try {
-        auto compiled =
-            compileSurfaceProgram(job.name, report.text, job.file, [&] { return superseded(job); });
+        auto compiled = compileSurfaceProgram(
+            job.name, report.text, job.file, [&] { return superseded(job); }, &compiler);
         (void)program::translated(compiled->source, compiled->spirv); // the hand must be able to run it, too
         report.program = std::move(compiled);
     } catch (const Cancelled&) {

@@ -14,9 +14,8 @@ std::span<const float> keptValues(const HapticScene& haptic, const HapticObject&
     const auto& felt = haptic.materials[static_cast<size_t>(object.material)].program;
     if (!object.empty() || felt == nullptr || felt->start == nullptr)
         return {};
-    const auto found = felt->start->values.find(object.instance);
-    return found != felt->start->values.end() ? std::span<const float>(*found->second)
-                                              : std::span<const float>();
+    const auto kept = felt->start->of(object.instance); // whose owner is `haptic`
+    return kept != nullptr ? std::span<const float>(*kept) : std::span<const float>();
 }
 
 } // namespace
@@ -24,6 +23,7 @@ std::span<const float> keptValues(const HapticScene& haptic, const HapticObject&
 TexturesToSave texturesToSave(const Scene& source, const HapticScene& haptic,
                               const PersistentTextures* textures) {
     TexturesToSave all;
+    const std::vector<int> surfaces = surfacesOf(source);
     for (size_t k = 0; textures != nullptr && k < haptic.objects.size(); ++k) {
         const PersistentTexture* const texture = textures->at(static_cast<int>(k));
         const HapticObject& object = *haptic.objects[k];
@@ -33,14 +33,12 @@ TexturesToSave texturesToSave(const Scene& source, const HapticScene& haptic,
         const std::span<const float> values = felt ? texture->values() : keptValues(haptic, object);
         if (values.empty())
             continue;
+        const auto instance = static_cast<size_t>(object.instance);
         const int file = source.materials[static_cast<size_t>(object.material)].fileIndex;
-        const int node = source.instances[static_cast<size_t>(object.instance)].node;
+        const int node = source.instances[instance].node;
         if (file < 0 || node < 0)
             continue;
-        int surface = 0;
-        for (int i = 0; i < object.instance; ++i)
-            surface += source.instances[static_cast<size_t>(i)].node == node ? 1 : 0;
-        all[static_cast<size_t>(file)].push_back({node, surface, {values.begin(), values.end()}});
+        all[static_cast<size_t>(file)].push_back({node, surfaces[instance], {values.begin(), values.end()}});
     }
     return all;
 }

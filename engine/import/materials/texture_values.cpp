@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace touchstone {
@@ -46,6 +47,14 @@ int indexOf(const json& entry, const char* name) {
 }
 
 } // namespace
+
+std::vector<int> surfacesOf(const Scene& scene) {
+    std::map<int, int> placed; // by node
+    std::vector<int> surfaces;
+    for (const Instance& instance : scene.instances)
+        surfaces.push_back(placed[instance.node]++);
+    return surfaces;
+}
 
 json jsonOf(std::span<const TextureValues> objects) {
     json all = json::array();

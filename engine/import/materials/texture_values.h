@@ -3,6 +3,7 @@
 
 #include "engine/import/file/import_context.h"
 #include "engine/program/surface_program.h"
+#include "engine/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,9 @@ struct TextureValues {
     int surface = 0;           ///< among those of the node (Scene::instances), in their order
     std::vector<float> values; ///< row by row
 };
+
+/// TextureValues::surface of each instance.
+[[nodiscard]] std::vector<int> surfacesOf(const Scene& scene);
 
 /// `persistentTexture.values` of a shader: an array of {node, surface, data}. The data are 32-bit floats,
 /// least significant byte first, in the zlib format (RFC 1950), as a data URI.

@@ -6,13 +6,6 @@
 
 namespace touchstone {
 
-namespace {
-
-/// Object units: a ball stops this near to the face, as a field's does to its surface.
-constexpr double kFaceTouch = 5e-14;
-
-} // namespace
-
 double CutField::value(const glm::dvec3& point) const noexcept {
     return std::max(field_->value(point), beyond(point));
 }
@@ -32,7 +25,8 @@ double CutField::sweep(const glm::dvec3& centre, double radius, const glm::dvec3
     if (!(glm::dot(motion, motion) > 0.0))
         return limit;
     const double d = beyond(centre), rate = glm::dot(normal_, motion);
-    const double stands = std::min(radius, std::max(field_->value(centre), d)), level = stands - kFaceTouch;
+    const double stands = std::min(radius, std::max(field_->value(centre), d)),
+                 level = stands - FieldShape::kTouch;
     if (d <= level) {
         const double met = field_->sweep(centre, stands, motion, limit);
         return rate > 0.0 && d + met * rate > level ? limit : met;

@@ -15,9 +15,9 @@ namespace touchstone {
 /// feature, FieldShape's cells are the others. The edge of the cut is convex, so that only the larger of f
 /// and d holds a ball there: the other one lies above its continuation.
 ///
-/// Over the face, where the sweep is in closed form, the place is exact to kTouch; elsewhere the answers are
-/// the field's to the last bit.
-class CutField final : public Shape, public PotentialField {
+/// Over the face, where the sweep is in closed form, the place is exact to FieldShape::kTouch; elsewhere the
+/// answers are the field's to the last bit.
+class CutField final : public PotentialShape {
   public:
     static constexpr FeatureId kFace = ~FeatureId{0}; ///< no grid has so many cells
 
@@ -35,7 +35,6 @@ class CutField final : public Shape, public PotentialField {
     [[nodiscard]] glm::dvec3 gradient(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] double lipschitz() const noexcept override;
     [[nodiscard]] double voxel() const noexcept override { return field_->voxel(); }
-    [[nodiscard]] const PotentialField* potential() const noexcept override { return this; }
 
     [[nodiscard]] double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                double limit) const noexcept override;
@@ -45,10 +44,6 @@ class CutField final : public Shape, public PotentialField {
                                                const glm::dvec3& point) const noexcept override;
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override;
-    [[nodiscard]] bool hasShadingNormals() const noexcept override { return true; }
-    [[nodiscard]] bool contains(const glm::dvec3& point) const noexcept override {
-        return value(point) < 0.0;
-    }
     [[nodiscard]] double boundingRadius() const noexcept override { return field_->boundingRadius(); }
     [[nodiscard]] uint64_t memoryBytes() const noexcept override { return field_->memoryBytes(); }
     [[nodiscard]] uint64_t identity() const noexcept override;

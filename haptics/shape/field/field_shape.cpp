@@ -8,7 +8,6 @@ namespace touchstone {
 
 namespace {
 
-constexpr double kTouch = 5e-14; // object units: a ball stops this near to contact (Shape::sweep)
 /// Object units: a proxy that rests in a kink keeps a gap of 1e-12 (contact.h) from both cells, and lies as
 /// far from the face between them as their angle makes it: this far at 1e-4 rad.
 constexpr double kKink = 1e-8;

@@ -18,8 +18,11 @@ class FieldColors; // haptics/shape/field/field_colors.h
 ///
 /// f tells distances up to FieldGrid::outside(): a ball with a larger radius would touch the grid's box
 /// instead.
-class FieldShape final : public Shape, public PotentialField {
+class FieldShape final : public PotentialShape {
   public:
+    /// Object units: a ball stops this near to contact (Shape::sweep).
+    static constexpr double kTouch = 5e-14;
+
     /// Object frame with the unit of the grid's. Throws Error where the field is nowhere negative.
     explicit FieldShape(std::shared_ptr<const FieldGrid> grid);
 
@@ -32,7 +35,6 @@ class FieldShape final : public Shape, public PotentialField {
     [[nodiscard]] glm::dvec3 gradient(const glm::dvec3& point) const noexcept override;
     [[nodiscard]] double lipschitz() const noexcept override { return grid_->lipschitz(); }
     [[nodiscard]] double voxel() const noexcept override { return grid_->layout().voxel; }
-    [[nodiscard]] const PotentialField* potential() const noexcept override { return this; }
 
     [[nodiscard]] double sweep(const glm::dvec3& centre, double radius, const glm::dvec3& motion,
                                double limit) const noexcept override;
@@ -43,10 +45,6 @@ class FieldShape final : public Shape, public PotentialField {
     /// The direction of `gradient` [002 eqs. 1, 2].
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override;
-    [[nodiscard]] bool hasShadingNormals() const noexcept override { return true; }
-    [[nodiscard]] bool contains(const glm::dvec3& point) const noexcept override {
-        return value(point) < 0.0;
-    }
     [[nodiscard]] double boundingRadius() const noexcept override { return boundingRadius_; }
     [[nodiscard]] uint64_t memoryBytes() const noexcept override { return grid_->memoryBytes(); }
     [[nodiscard]] uint64_t identity() const noexcept override { return grid_->hash(); }

@@ -5,7 +5,6 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
-#include "haptics/shape/mesh/cut_object.h"
 #include "haptics/shape/mesh/weld.h"
 
 #include <algorithm>

@@ -130,6 +130,12 @@ struct HapticObject {
                                                                     const ObjectUse& use,
                                                                     const Progress& progress = {});
 
+/// The same of an instance whose mesh is a part of `whole`: in the frame of the object of `whole`, to the
+/// last bit, so that a place in the one is the same place in the other.
+[[nodiscard]] std::unique_ptr<const HapticObject>
+buildCutObject(const Scene& scene, int instance, const Mesh& whole, const Similarity& workspaceFromScene,
+               const ObjectUse& use, const Progress& progress = {});
+
 /// Centre and radius of a sphere around the object at a pose, workspace.
 [[nodiscard]] inline glm::dvec4 boundingSphere(const HapticObject& object,
                                                const Similarity& workspaceFromObject) {

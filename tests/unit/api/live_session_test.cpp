@@ -44,6 +44,30 @@ struct Pressing {
     }
 };
 
+/// A session with that device, by the C interface.
+struct PressedSession {
+    Pressing pressing;
+    const ts_device device = pressing.device();
+    ts::Handle<ts_session, ts_session_close> handle;
+    ts_state state = TS_STRUCT(ts_state); ///< of the last pump
+
+    explicit PressedSession(ts_session_options options = TS_STRUCT(ts_session_options)) {
+        options.own = &device;
+        ts::check(ts_session_create(&options, handle.out()));
+    }
+    /// Pumps until `done` holds; false after a minute.
+    template <class Done>
+    bool until(const Done& done) {
+        for (int i = 0; i < 6000; ++i) {
+            ts::check(ts_session_pump(handle.get(), &state));
+            if (done())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    }
+};
+
 /// Pumps until `done` holds; false after a minute.
 template <class Done>
 bool pumpUntil(ts::Session& session, const Done& done) {
@@ -89,29 +113,17 @@ ts_goal floorGoal(double height) {
 
 // 250 Hz of contact, 4 kHz of control; then the caller renders it.
 TEST(LiveSession, HoldsAnOwnDeviceByAControlLoopApart) {
-    Pressing pressing;
-    const ts_device device = pressing.device();
     ts_session_options options = TS_STRUCT(ts_session_options);
-    options.own = &device;
     options.rate = 250.0;
     options.control = 4000.0;
     options.goal_power = 10.0;
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts::check(ts_session_create(&options, handle.out()));
-    ts_session session = handle.get();
+    PressedSession pressed(options);
+    const Pressing& pressing = pressed.pressing;
+    ts_session session = pressed.handle.get();
     EXPECT_EQ(ts_session_render(session, 1), TS_STATE);
     ts::check(ts_session_touch(session, ts::Scene({floorMesh()}).get()));
     ts::check(ts_session_start(session));
-    const auto until = [&](const auto& done) {
-        ts_state state = TS_STRUCT(ts_state);
-        for (int i = 0; i < 6000; ++i) {
-            ts::check(ts_session_pump(session, &state));
-            if (done(state))
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
-    };
+    const auto until = [&](const auto& done) { return pressed.until([&] { return done(pressed.state); }); };
     EXPECT_TRUE(until([&](const ts_state& s) { return pressing.force > 0.99 && s.rendered == 0; }));
     EXPECT_TRUE(until([](const ts_state& s) { return s.control_ticks > s.ticks; }));
 
@@ -138,26 +150,15 @@ TEST(LiveSession, HoldsAnOwnDeviceByAControlLoopApart) {
 }
 
 TEST(LiveSession, ChangesAMaterialWhileItIsTouched) {
-    Pressing pressing;
-    const ts_device device = pressing.device();
-    ts_session_options options = TS_STRUCT(ts_session_options);
-    options.own = &device;
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts::check(ts_session_create(&options, handle.out()));
-    ts_session session = handle.get();
+    PressedSession pressed;
+    const Pressing& pressing = pressed.pressing;
+    ts_session session = pressed.handle.get();
     EXPECT_EQ(ts_session_material(session, 0, "stiffness", 100.0), TS_STATE);
     const ts::Scene scene({floorMesh()});
     ts::check(ts_session_touch(session, scene.get()));
     ts::check(ts_session_start(session));
     const auto reaches = [&](double newtons) {
-        ts_state state = TS_STRUCT(ts_state);
-        for (int i = 0; i < 6000; ++i) {
-            ts::check(ts_session_pump(session, &state));
-            if (std::abs(pressing.force - newtons) < 1e-3)
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
+        return pressed.until([&] { return std::abs(pressing.force - newtons) < 1e-3; });
     };
     EXPECT_TRUE(reaches(1.0)); // 600 N/m, 2 mm deep, at most 1 N
     ts::check(ts_session_material(session, 0, "stiffness", 100.0));
@@ -191,22 +192,15 @@ TEST(LiveSession, ChangesAMaterialWhileItIsTouched) {
 
 // The goal may come before the loop has heard that it is to follow goals.
 TEST(LiveSession, TheFirstGoalAfterRenderIsFollowed) {
-    Pressing pressing;
-    const ts_device device = pressing.device();
     ts_session_options options = TS_STRUCT(ts_session_options);
-    options.own = &device;
     options.control = 100.0; // 10 ms for the two calls
     options.goal_power = 10.0;
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts::check(ts_session_create(&options, handle.out()));
-    ts_session session = handle.get();
+    PressedSession pressed(options);
+    ts_session session = pressed.handle.get();
     ts::check(ts_session_touch(session, ts::Scene({floorMesh()}).get()));
     ts::check(ts_session_start(session));
-    ts_state state = TS_STRUCT(ts_state);
-    for (int i = 0; i < 6000 && state.control_ticks < 100; ++i) {
-        ts::check(ts_session_pump(session, &state));
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+    ts_state& state = pressed.state;
+    (void)pressed.until([&] { return state.control_ticks >= 100; });
     const ts_goal far = floorGoal(900.0);
     int followedTurns = 0;
     for (int turn = 0; turn < 30 && followedTurns < 3; ++turn) {
@@ -223,10 +217,7 @@ TEST(LiveSession, TheFirstGoalAfterRenderIsFollowed) {
         EXPECT_TRUE(followed || took.count() > 0.2) << turn; // a stall of this thread is such a silence
         followedTurns += followed ? 1 : 0;
         ts::check(ts_session_render(session, 0));
-        for (int i = 0; i < 6000 && state.rendered == 1; ++i) {
-            ts::check(ts_session_pump(session, &state));
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
+        (void)pressed.until([&] { return state.rendered == 0; });
     }
     EXPECT_EQ(followedTurns, 3);
 }
@@ -265,26 +256,15 @@ std::filesystem::path threeSquares(const ScratchFolder& folder) {
 TEST(LiveSession, ARecordingHasChangesOfSurfacesThatTheFileHasNoMaterialFor) {
     const ScratchFolder folder;
     const std::string model = threeSquares(folder).string(), file = (folder / "changed.tsrec").string();
-    Pressing pressing;
-    const ts_device device = pressing.device();
-    ts_session_options options = TS_STRUCT(ts_session_options);
-    options.own = &device;
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts::check(ts_session_create(&options, handle.out()));
-    ts_session session = handle.get();
+    PressedSession pressed;
+    ts_session session = pressed.handle.get();
     const ts::Scene scene(model, TS_FIT_NONE);
     ASSERT_EQ(scene.info().materials, 2u);
     ts::check(ts_session_touch(session, scene.get()));
     ts::check(ts_session_start(session));
-    ts_state state = TS_STRUCT(ts_state);
+    const ts_state& state = pressed.state;
     const auto touches = [&](double newtons) {
-        for (int i = 0; i < 6000; ++i) {
-            ts::check(ts_session_pump(session, &state));
-            if (state.contacts > 0 && std::abs(state.force[1] - newtons) < 1e-3)
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
+        return pressed.until([&] { return state.contacts > 0 && std::abs(state.force[1] - newtons) < 1e-3; });
     };
     EXPECT_TRUE(touches(1.2));
     ts::check(ts_session_material(session, 0, "stiffness", 400.0)); // before the recording
@@ -302,14 +282,11 @@ TEST(LiveSession, ARecordingHasChangesOfSurfacesThatTheFileHasNoMaterialFor) {
 TEST(LiveSession, MovesAnObjectUnderTheHandAndRecordsIt) {
     const ScratchFolder folder;
     const std::string model = threeSquares(folder).string(), file = (folder / "moved.tsrec").string();
-    Pressing pressing;
-    const ts_device device = pressing.device();
     ts_session_options options = TS_STRUCT(ts_session_options);
-    options.own = &device;
     options.keep = 1'000'000;
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts::check(ts_session_create(&options, handle.out()));
-    ts_session session = handle.get();
+    PressedSession pressed(options);
+    const Pressing& pressing = pressed.pressing;
+    ts_session session = pressed.handle.get();
     ts_pose pose = TS_STRUCT(ts_pose);
     EXPECT_EQ(ts_session_move(session, 0, &pose), TS_STATE);
     EXPECT_EQ(ts_session_halt(session), TS_STATE);
@@ -318,16 +295,8 @@ TEST(LiveSession, MovesAnObjectUnderTheHandAndRecordsIt) {
     ts::check(ts_session_touch(session, scene.get()));
     ts::check(ts_session_record(session, file.c_str()));
     ts::check(ts_session_start(session));
-    ts_state state = TS_STRUCT(ts_state);
-    const auto until = [&](const auto& done) {
-        for (int i = 0; i < 6000; ++i) {
-            ts::check(ts_session_pump(session, &state));
-            if (done())
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return false;
-    };
+    ts_state& state = pressed.state;
+    const auto until = [&](const auto& done) { return pressed.until(done); };
     EXPECT_TRUE(until([&] { return state.contacts > 0 && state.force[1] > 1.1; }));
     const auto object = static_cast<uint64_t>(state.object); // the hand's
     ts_object_info info = TS_STRUCT(ts_object_info);

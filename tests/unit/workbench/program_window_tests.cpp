@@ -38,6 +38,15 @@ class ProgramWindow : public WindowTest {
         open(model_.string(), {"--hand", "simulated"});
         until("the hand to touch", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
     }
+    /// Ctrl+S; what `inspect` then says of the file.
+    std::string savedAndInspected() {
+        display_.key("ctrl+s");
+        until("it to be saved",
+              [&](const Json& s) { return s["materials"]["notice"] == "saved to " + model_.string(); });
+        const ProgramResult inspected = runProgram({TOUCHSTONE_BINARY, "inspect", model_.string()});
+        EXPECT_EQ(inspected.status, 0) << inspected.err;
+        return inspected.out;
+    }
     static const Json& programOf(const Json& s) { return s["programs"].at(0); }
     Json untilProgram(const std::string& what, const std::function<bool(const Json&)>& holds) {
         return until(what, [&](const Json& s) { return holds(programOf(s)); });
@@ -175,13 +184,9 @@ TEST_F(ProgramWindow, TextIsTypedParametersAreDraggedAndBothAreKeptOnSave) {
     typeAtTheEnd(10, "}");
     untilProgram("it to be right again",
                  [](const Json& p) { return p["problem"] == "" && !p["compiling"].get<bool>(); });
-    display_.key("ctrl+s");
-    until("it to be saved",
-          [&](const Json& s) { return s["materials"]["notice"] == "saved to " + model_.string(); });
-    const ProgramResult saved = runProgram({TOUCHSTONE_BINARY, "inspect", model_.string()});
-    EXPECT_EQ(saved.status, 0) << saved.err;
-    EXPECT_NE(saved.out.find("mine.glsl"), std::string::npos) << saved.out;
-    EXPECT_EQ(saved.out.find("plain"), std::string::npos) << saved.out;
+    const std::string saved = savedAndInspected();
+    EXPECT_NE(saved.find("mine.glsl"), std::string::npos) << saved;
+    EXPECT_EQ(saved.find("plain"), std::string::npos) << saved;
     expectCleanEnd();
     const std::string bytes = readFile(model_);
     EXPECT_NE(bytes.find(base64({text.begin(), text.end()})), std::string::npos)
@@ -204,12 +209,8 @@ TEST_F(ProgramWindow, CoverageIsSaidInPercentAndWhatIsWornOffIsSaved) {
     });
     EXPECT_NE(worn["widgets"]["coverage"].dump().find("% removed"), std::string::npos);
     EXPECT_TRUE(worn["materials"]["edited"].get<bool>()) << "it is not saved";
-    display_.key("ctrl+s");
-    until("it to be saved",
-          [&](const Json& s) { return s["materials"]["notice"] == "saved to " + model_.string(); });
-    const ProgramResult saved = runProgram({TOUCHSTONE_BINARY, "inspect", model_.string()});
-    EXPECT_EQ(saved.status, 0) << saved.err;
-    EXPECT_NE(saved.out.find("% left, as it was saved"), std::string::npos) << saved.out;
+    const std::string saved = savedAndInspected();
+    EXPECT_NE(saved.find("% left, as it was saved"), std::string::npos) << saved;
 }
 
 } // namespace
