@@ -12,8 +12,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -311,6 +313,11 @@ int serve(ServeOptions options, const std::string& web) {
     return 0;
 }
 
+/// CLI::Range lets NaN pass: it asks whether a value is below or above.
+std::string isNumber(const std::string& text) {
+    return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : std::string();
+}
+
 } // namespace
 } // namespace touchstone::server
 
@@ -336,21 +343,31 @@ int main(int count, char** arguments) {
         ->type_name("DEVICE");
     app.add_option("--rate", options.rate, "Servo rate [1000]")
         ->type_name("HZ")
-        ->check(CLI::Range(100.0, 4000.0));
+        ->check(CLI::Range(100.0, 4000.0))
+        ->check(isNumber);
     app.add_option(
            "--control", options.control,
            "Control loop apart from contact, at HZ (docs/control.md): contact may be slower (--rate), or a "
            "client's [none]")
         ->type_name("HZ")
-        ->check(CLI::Range(100.0, 4000.0));
+        ->check(CLI::Range(100.0, 4000.0))
+        ->check(isNumber);
     app.add_option(
            "--goal-power", options.goalPower,
            "Power that a client's contact may give the hand; 0: late or wrong contact gives no energy [0]")
         ->type_name("W")
-        ->check(CLI::Range(0.0, 10.0));
+        ->check(CLI::Range(0.0, 10.0))
+        ->check(isNumber);
     app.add_flag("--allow-write", options.allowWrite, "Clients may record into new files below the root");
     std::string web = TOUCHSTONE_WEB;
-    CLI11_PARSE(app, count, arguments);
+    try {
+        app.parse(count, arguments);
+    } catch (const CLI::Success& answered) { // --help
+        return app.exit(answered);
+    } catch (const CLI::ParseError& error) {
+        std::fprintf(stderr, "touchstone: %s\n  remedy: touchstone serve --help\n", error.what());
+        return 2;
+    }
     try {
         if (options.port == 0 && options.socket.empty())
             throw std::runtime_error("--port 0 needs --socket");

@@ -1,6 +1,5 @@
 // Writes a model with as few triangles as an angle between facets allows.
 
-#include "engine/core/error.h"
 #include "study/perception/reduced_model.h"
 #include "workbench/files/geometry_file.h"
 #include "workbench/model/model.h"
@@ -11,8 +10,6 @@
 namespace touchstone {
 
 int simplifyCommand(const SimplifyOptions& options) {
-    if (!options.out.empty() && options.out.extension() != ".glb")
-        throw Error(options.out.string(), "", "is no name of a GLB", "name a file that ends in .glb");
     const Model model = loadModelToTouch(options.scene, Fit::Workspace, nullptr, options.iso);
     printWarnings(model);
     if (!model.scene->animations.empty())

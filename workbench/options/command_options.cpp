@@ -5,6 +5,7 @@
 #include "workbench/editor/haptic_fields.h"
 #include "workbench/editor/presets.h"
 #include "workbench/figures/ui_scale.h"
+#include "workbench/options/number_range.h"
 #include "workbench/options/shared_options.h"
 
 #include <algorithm>
@@ -65,14 +66,14 @@ void defineDevices(CLI::App& app, DevicesOptions& options) {
             ->type_name("DEVICE");
     app.add_option("--seconds", options.seconds, "How long [3]")
         ->type_name("S")
-        ->check(CLI::Range(0.1, 3600.0))
+        ->check(within(0.1, 3600.0))
         ->needs(test);
     constexpr double kMaxForce = 2.0; // N; a loosely held device stays in the hand
     app.add_option(
            "--force", options.force,
            "Push this hard along each axis in turn; without it no force is ever sent. Hold the device!")
         ->type_name("N")
-        ->check(CLI::Range(0.0, kMaxForce))
+        ->check(within(0.0, kMaxForce))
         ->needs(test);
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE")->needs(test);
 }
@@ -177,18 +178,18 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
             ->check(CLI::IsMember(names));
     app.add_option("--sculpt-radius", options.tool.radius, "Of the tool, workspace [0.005]")
         ->type_name("M")
-        ->check(CLI::Range(1e-6, 1.0))
+        ->check(within(1e-6, 1.0))
         ->needs(sculpt);
     app.add_option("--sculpt-strength", options.tool.strength, "Above 0, at most 1 [1]")
-        ->check(CLI::Range(1e-3, 1.0))
+        ->check(within(1e-3, 1.0))
         ->needs(sculpt);
     app.add_option("--sculpt-falloff", options.tool.falloff, "0..1: the soft part of the radius [0]")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(within(0.0, 1.0))
         ->needs(sculpt);
     app.add_option("--sculpt-resistance", options.tool.resistance,
                    "N for each m^3/s that the tool takes away [500000]")
         ->type_name("R")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(within(0.0, 1e9))
         ->needs(sculpt);
     app.add_option("--sculpt-stamp", options.stamp, "Object of the scene whose shape is stamped or imprinted")
         ->type_name("NAME")
@@ -213,7 +214,7 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
 void addStrokeSeconds(CLI::App& app, double& seconds, CLI::Option* stroke) {
     app.add_option("--seconds", seconds, "How long it strokes [once round]")
         ->type_name("S")
-        ->check(CLI::Range(0.01, 86400.0))
+        ->check(within(0.01, 86400.0))
         ->needs(stroke);
     for (const char* of : {"--stroke-speed", "--stroke-depth"})
         app.get_option(of)->needs(stroke);
@@ -230,7 +231,7 @@ void defineRun(CLI::App& app, RunOptions& options) {
         "--headless", [](int64_t) {}, "Accepted for older scripts: `run` never opens a window");
     app.add_option("--seconds", options.seconds, "How long [10]")
         ->type_name("S")
-        ->check(CLI::Range(0.1, 86400.0));
+        ->check(within(0.1, 86400.0));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
     addPicture(app, "--screenshot", options.screenshot, "Write the last picture here: PNG or JPEG");
     app.add_option("--record-ticks", options.recordTicks,
@@ -407,7 +408,7 @@ void defineRender(CLI::App& app, RenderOptions& options) {
             ->check(CLI::IsMember({"x", "y", "z"}));
     app.add_option("--slice-at", options.sliceAt, "Its place, from one end of the field to the other [0.5]")
         ->type_name("0..1")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(within(0.0, 1.0))
         ->needs(slice);
     CLI::Option* stroke =
         addStroke(app, options.stroke,
@@ -436,11 +437,15 @@ void defineSimplify(CLI::App& app, SimplifyOptions& options) {
                    "found 0.2 to 14.8 for one cylinder (inspect)")
         ->type_name("DEG")
         ->required()
-        ->check(CLI::Range(0.01, 90.0));
+        ->check(within(0.01, 90.0));
     app.add_option("--out", options.out,
                    "Write the model here, as GLB: the static pose's triangles with the names of their "
                    "materials; without it the figures alone")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check([](const std::string& file) {
+            return std::filesystem::path(file).extension() == ".glb" ? std::string()
+                                                                     : file + " does not end in .glb";
+        });
 }
 
 void defineBench(CLI::App& app, BenchOptions& options) {
@@ -460,7 +465,7 @@ void defineBench(CLI::App& app, BenchOptions& options) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--seconds", options.seconds, "protocol: of each run [180]")
         ->type_name("S")
-        ->check(CLI::Range(0.05, 3600.0));
+        ->check(within(0.05, 3600.0));
     app.add_option("--runs", options.runs, "protocol: runs of each object [3]")
         ->type_name("N")
         ->check(CLI::Range(1, 100));

@@ -4,6 +4,7 @@
 #include "haptics/servo/servo_loop.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_camera.h"
+#include "workbench/options/number_range.h"
 
 #include <algorithm>
 #include <charconv>
@@ -267,10 +268,10 @@ CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& 
     app.add_option("--stroke-speed", stroke.speed,
                    "How fast it goes on the surface, at its fastest [the stroke's own]")
         ->type_name("M/S")
-        ->check(CLI::Range(kSlowestStroke, kFastestStroke));
+        ->check(within(kSlowestStroke, kFastestStroke));
     app.add_option("--stroke-depth", stroke.depth, "How deep it presses [the stroke's own]")
         ->type_name("M")
-        ->check(CLI::Range(kShallowestStroke, kDeepestStroke));
+        ->check(within(kShallowestStroke, kDeepestStroke));
     return name;
 }
 
@@ -279,11 +280,11 @@ void addZoom(CLI::App& app, double& zoom) {
            "--workspace-scale", zoom,
            "How far the hand goes in the model for each metre of the device, or of the simulated hand [1]")
         ->type_name("FACTOR")
-        ->check(CLI::Range(kMinZoom, kMaxZoom));
+        ->check(within(kMinZoom, kMaxZoom));
 }
 
 void addRate(CLI::App& app, double& rate, const std::string& meaning) {
-    app.add_option("--rate", rate, meaning)->type_name("HZ")->check(CLI::Range(kMinServoRate, kMaxServoRate));
+    app.add_option("--rate", rate, meaning)->type_name("HZ")->check(within(kMinServoRate, kMaxServoRate));
 }
 
 void addGpu(CLI::App& app, std::string& gpu) {
@@ -307,7 +308,7 @@ void addRecording(CLI::App& app, RecordingOptions& options) {
         ->type_name("DIR|off");
     app.add_option("--flight-seconds", options.flightSeconds, "How many seconds those are at least [10]")
         ->type_name("S")
-        ->check(CLI::Range(1.0, 600.0));
+        ->check(within(1.0, 600.0));
 }
 
 void addIso(CLI::App& app, std::optional<double>& iso) {

@@ -137,6 +137,31 @@ TEST(CommandLine, WrongUsageIsStatusTwoWithARemedy) {
     }
 }
 
+// CLI::Range passes NaN, which is neither below nor above: `devices --force nan` would have pushed with it.
+TEST(CommandLine, NoOptionTakesNaN) {
+    const std::vector<std::vector<std::string>> commands{
+        {"devices", "--test", "mouse", "--force", "nan"},
+        {"devices", "--test", "mouse", "--seconds", "nan"},
+        {"run", kPlane, "--headless", "--seconds", "nan"},
+        {"run", kPlane, "--headless", "--rate", "nan"},
+        {"touch", kPlane, "--out", "a", "--stroke", "circle", "--speed", "nan"},
+        {"touch", kPlane, "--out", "a", "--stroke", "circle", "--depth", "NAN"},
+        {"touch", kPlane, "--out", "a", "--stroke", "circle", "--sculpt", "carve", "--sculpt-radius", "nan"},
+        {"touch", kPlane, "--out", "a", "--stroke", "circle", "--set", "maxForce=nan"},
+        {"render", kPlane, "--out", "a.png", "--fov", "nan"},
+        {"bench", "--seconds", "nan"},
+        {"simplify", kPlane, "--threshold", "nan"},
+        {"serve", "--rate", "nan"},
+        {"serve", "--control", "nan"},
+        {"serve", "--goal-power", "nan"}};
+    for (const std::vector<std::string>& command : commands) {
+        std::vector<std::string> arguments{kProgram};
+        arguments.insert(arguments.end(), command.begin(), command.end());
+        const ProgramResult result = runProgram(arguments);
+        EXPECT_EQ(result.status, 2) << command[0] << ' ' << command[command.size() - 2] << ": " << result.err;
+    }
+}
+
 TEST(CommandLine, AWrongEndingIsToldWithThoseThatAreWritten) {
     expectRefused(runProgram({kProgram, "render", kPlane, "--out", "a.gif"}), 2,
                   {"a.gif", ".png", ".jpg", ".jpeg"});
@@ -658,6 +683,58 @@ TEST(Inspect, APlainModelNeedsNoEffect) {
             EXPECT_EQ(effect["on"], false);
             EXPECT_FALSE(effect["reason"].get<std::string>().empty());
         }
+}
+
+/// The first number after `label`, or -1.
+double numberAfter(const std::string& text, const std::string& label) {
+    const size_t at = text.find(label);
+    return at == std::string::npos ? -1.0 : std::strtod(text.c_str() + at + label.size(), nullptr);
+}
+
+TEST(Simplify, WritesWhatItMeasuredAndReadsItAgain) {
+    const ScratchFolder scratch;
+    const std::string out = (scratch / "torus.glb").string();
+    const std::string torus = TOUCHSTONE_ASSETS "/torus_64800.glb";
+    const ProgramResult result = runProgram({kProgram, "simplify", torus, "--threshold", "5", "--out", out});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "64800 triangles, nine smooth edges of ten within 2 degrees"))
+        << result.out;
+    const double kept = numberAfter(result.out, "within 5 degrees: ");
+    EXPECT_GT(kept, 0.0);
+    EXPECT_LT(kept, 0.75 * 64800.0) << result.out;
+    EXPECT_LE(numberAfter(result.out, "nine of ten within "), 5.0);
+    // 250 facets and more around the tube of 25 mm leave less than r (1 - cos 5 degrees).
+    EXPECT_GT(numberAfter(result.out, "at most "), 0.0);
+    EXPECT_LT(numberAfter(result.out, "at most "),
+              25.0 * (1.0 - std::cos(5.0 * 3.14159265358979 / 180.0)) * 2.0);
+    const ProgramResult again = runProgram({kProgram, "inspect", out});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(numberAfter(again.out, "\n  "), kept) << "the triangles of the file are those that were told";
+    EXPECT_TRUE(contains(again.out, "'slate'")) << "materials keep their names";
+    // Without a file it tells the same figures and writes nothing.
+    const ProgramResult told = runProgram({kProgram, "simplify", torus, "--threshold", "5"});
+    EXPECT_EQ(told.out, result.out.substr(0, result.out.find("saved to")));
+}
+
+TEST(Simplify, RefusesWhatItCannotDoAndWritesNothing) {
+    const ScratchFolder scratch;
+    const std::string out = (scratch / "out.glb").string();
+    expectRefused(runProgram({kProgram, "simplify", kBox, "--threshold", "5", "--out", out}), 1,
+                  {kBox, "90", "triangles are needed"});
+    EXPECT_FALSE(fs::exists(out));
+    expectRefused(runProgram({kProgram, "simplify", (scratch / "no.glb").string(), "--threshold", "5"}), 1,
+                  {"no.glb", "there is no such file"});
+    expectRefused(runProgram({kProgram, "simplify", kDoughnut}), 2, {"--threshold", "required"});
+    for (const char* angle : {"0", "-5", "91", "nan", "many"})
+        expectRefused(runProgram({kProgram, "simplify", kDoughnut, "--threshold", angle}), 2,
+                      {"--threshold"});
+    expectRefused(runProgram({kProgram, "simplify", kDoughnut, "--threshold", "30", "--out", "a.obj"}), 2,
+                  {"a.obj", ".glb"});
+    const ProgramResult nowhere =
+        runProgram({kProgram, "simplify", TOUCHSTONE_ASSETS "/torus_64800.glb", "--threshold", "5", "--out",
+                    (scratch / "no" / "a.glb").string()});
+    EXPECT_EQ(nowhere.status, 1);
+    EXPECT_TRUE(contains(nowhere.err, "cannot be written")) << nowhere.err;
 }
 
 TEST(Devices, ListsWhatIsBuiltIn) {
