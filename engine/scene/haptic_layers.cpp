@@ -42,6 +42,11 @@ void offerOurs(const HapticStatement& ours, HapticMaterial& haptic) {
     haptic.implicit = ours.implicit.value_or(false);
     haptic.voxelSize = ours.voxelSize.value_or(0.0f);
     haptic.fieldError = ours.fieldError.value_or(0.0f);
+    haptic.fieldTexture = {.noiseAmplitude = ours.noiseAmplitude.value_or(0.0f),
+                           .noiseWavelength = ours.noiseWavelength.value_or(0.0f),
+                           .noiseSeed = ours.noiseSeed.value_or(0.0f),
+                           .latticeAmplitude = ours.latticeAmplitude.value_or(0.0f),
+                           .latticeWavelength = ours.latticeWavelength.value_or(0.0f)};
     haptic.program = feltProgram(ours);
     if (!ours.shader.is_null() && !haptic.program)
         haptic.unavailable["shader"] = ours.shader;

@@ -72,7 +72,28 @@ constexpr std::array kNumbers{
          "how far the distance field's surface may be from the triangles, model metres: the voxel is chosen "
          "for it"},
         &HapticStatement::fieldError,
-        nullptr}};
+        nullptr},
+    HapticNumber{{"noiseAmplitude", "noise", "m", 0.0f, kLargest, 0.0f, 0.002f, false, "0",
+                  "standard deviation of the Gaussian noise on the distance field, model metres"},
+                 &HapticStatement::noiseAmplitude,
+                 nullptr},
+    HapticNumber{{"noiseWavelength", "noise wavelength", "m", 0.0f, kLargest, 0.0f, 0.02f, false, "0",
+                  "distance between the values of the noise, model metres; 0: each node of the grid has its "
+                  "own"},
+                 &HapticStatement::noiseWavelength,
+                 nullptr},
+    HapticNumber{{"noiseSeed", "noise seed", "", 0.0f, 16777216.0f, 0.0f, 100.0f, false, "0",
+                  "chooses one of the noises of this amplitude and wavelength"},
+                 &HapticStatement::noiseSeed,
+                 nullptr},
+    HapticNumber{{"latticeAmplitude", "lattice", "m", 0.0f, kLargest, 0.0f, 0.002f, false, "0",
+                  "height of the lattice on the distance field, model metres"},
+                 &HapticStatement::latticeAmplitude,
+                 nullptr},
+    HapticNumber{{"latticeWavelength", "lattice wavelength", "m", kSmallest, kLargest, 0.0005f, 0.05f, true,
+                  "none", "period of the lattice along each axis of the mesh, model metres"},
+                 &HapticStatement::latticeWavelength,
+                 nullptr}};
 
 } // namespace
 

@@ -55,6 +55,16 @@ struct HeightMap {
 enum class ShadingChoice : uint8_t { Auto, Off, TwoPass, Projected, Direction, Bezier };
 enum class SideChoice : uint8_t { Both, Front };
 
+/// Added to the values of a distance field's nodes [002 section 4.4]. Model metres.
+struct FieldTexture {
+    float noiseAmplitude = 0.0f;    ///< standard deviation; 0: no noise
+    float noiseWavelength = 0.0f;   ///< distance between its values; 0: each node has its own
+    float noiseSeed = 0.0f;         ///< a whole number
+    float latticeAmplitude = 0.0f;  ///< of the highest and lowest places; 0: no lattice
+    float latticeWavelength = 0.0f; ///< along each axis of the mesh; 0: no lattice
+    bool operator==(const FieldTexture&) const = default;
+};
+
 /// The haptic properties of a material. An empty optional means that the file does not specify it: the
 /// session's setting or the device's recommendation applies. Every field keeps its source for the reasons in
 /// `inspect`.
@@ -82,6 +92,7 @@ struct HapticMaterial {
     bool implicit = false;   ///< representation: felt as a distance field
     float voxelSize = 0.0f;  ///< of the field, model metres; 0: chosen from fieldError or the object's size
     float fieldError = 0.0f; ///< how far its surface may be from the triangles, model metres; 0: not stated
+    FieldTexture fieldTexture;
     MaterialProgram program; ///< what a touched place of it feels like; none: the fields above alone
     KeptFields unavailable;  ///< fields that are not felt, for `inspect`
     bool operator==(const HapticMaterial&) const = default;
@@ -98,7 +109,9 @@ struct HapticStatement {
     std::optional<SideChoice> sides;
     std::optional<bool> implicit;               ///< representation: "implicit", else "mesh"
     std::optional<float> voxelSize, fieldError; ///< model metres
-    KeptJson shader;                            ///< as in the file; null: none
+    std::optional<float> noiseAmplitude, noiseWavelength, noiseSeed, latticeAmplitude,
+        latticeWavelength; ///< FieldTexture
+    KeptJson shader;       ///< as in the file; null: none
     /// Compiled from shader's source; null without one, and where it could not be read or compiled.
     std::shared_ptr<const SurfaceProgram> program;
     bool operator==(const HapticStatement&) const = default;

@@ -21,6 +21,7 @@ ObjectUse objectUse(const Scene& scene, const Material& source, const HapticMate
     use.implicit = true;
     use.voxelSize = source.haptic.voxelSize;
     use.fieldError = source.haptic.fieldError;
+    use.fieldTexture = source.haptic.fieldTexture;
     return use;
 }
 

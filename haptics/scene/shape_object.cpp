@@ -85,13 +85,51 @@ std::string placeOf(const HapticObject& mesh, const char* field) {
     return "materials[" + std::to_string(mesh.material) + "]." + field;
 }
 
+/// What the material lays on its fields, object units; none, and a warning, where it is too high for the
+/// object.
+FieldRelief reliefFor(const HapticObject& mesh, const FieldTexture& texture, double objectPerModel,
+                      std::vector<Warning>& warnings) {
+    constexpr double kHighest = 0.1; // object units
+    FieldRelief relief{.noise = static_cast<double>(texture.noiseAmplitude) * objectPerModel,
+                       .noiseWavelength = static_cast<double>(texture.noiseWavelength) * objectPerModel,
+                       .seed = static_cast<uint64_t>(texture.noiseSeed)};
+    if (texture.latticeWavelength > 0.0f) {
+        relief.lattice = static_cast<double>(texture.latticeAmplitude) * objectPerModel;
+        relief.latticeWavelength = static_cast<double>(texture.latticeWavelength) * objectPerModel;
+    }
+    if (relief.highest() <= kHighest)
+        return relief;
+    const bool byNoise = FieldRelief::kMostDeviations * relief.noise > relief.lattice;
+    warnings.push_back({placeOf(mesh, byNoise ? "noiseAmplitude" : "latticeAmplitude"),
+                        "is too high for " + mesh.name +
+                            ": four deviations of the noise and the lattice may be " +
+                            std::to_string(kHighest / objectPerModel) + " m in all; felt without"});
+    return {};
+}
+
+/// A wave of few voxels is another one between the nodes.
+void checkWaves(const HapticObject& mesh, const FieldRelief& relief, double voxel,
+                std::vector<Warning>& warnings) {
+    constexpr double kFewest = 4.0; // voxels
+    const auto check = [&](const char* name, double amplitude, double wavelength) {
+        if (amplitude > 0.0 && wavelength > 0.0 && wavelength < kFewest * voxel)
+            warnings.push_back({placeOf(mesh, name),
+                                "is less than four voxels of " + mesh.name +
+                                    ": the field holds another pattern. Make the waves longer or the voxels "
+                                    "smaller"});
+    };
+    check("noiseWavelength", relief.noise, relief.noiseWavelength);
+    check("latticeWavelength", relief.lattice, relief.latticeWavelength);
+}
+
 /// With the voxel that the material asks for, or else the usual one. `objectPerModel`: lengths.
 Grid gridOfVoxel(const HapticObject& mesh, FieldRequest request, float voxelSize, double objectPerModel,
                  const Progress& progress, std::vector<Warning>& warnings) {
     constexpr double kCoarsest = 0.25; // object units
     if (voxelSize > 0.0f)
         request.voxel = static_cast<double>(voxelSize) * objectPerModel;
-    const double finest = finestVoxel(mesh, request.outside);
+    const double finest =
+        finestVoxel(mesh, std::max(request.outside, reachOf(request.relief, request.voxel)));
     if (request.voxel < finest || request.voxel > kCoarsest) {
         const FieldRequest usual;
         const char* const why =
@@ -105,17 +143,25 @@ Grid gridOfVoxel(const HapticObject& mesh, FieldRequest request, float voxelSize
     return fieldOfMesh(mesh, request, fieldCache(), progress);
 }
 
-/// With the voxel that keeps its surface as near to the triangles as the material asks.
-Grid gridOfError(const HapticObject& mesh, const FieldRequest& request, float fieldError,
-                 double objectPerModel, const Progress& progress, std::vector<Warning>& warnings) {
+/// With the voxel that keeps its surface, without the relief, as near to the triangles as the material asks.
+Grid gridOfError(const HapticObject& mesh, FieldRequest request, float fieldError, double objectPerModel,
+                 const Progress& progress, std::vector<Warning>& warnings) {
     const double error = static_cast<double>(fieldError) * objectPerModel;
-    const FittedField field = fieldWithin(mesh, request, error, fieldCache(), progress);
+    const FieldRelief relief = std::exchange(request.relief, {});
+    // The relief's field has no more cells than this one.
+    request.outside = std::max(request.outside, reachOf(relief, kCoarsestWithin));
+    const FittedField field =
+        fieldWithin(mesh, request, error, fieldCache(), relief.empty() ? progress : progress.part(0.0, 0.7));
     if (field.error > error)
         warnings.push_back({placeOf(mesh, "fieldError"),
                             "needs too many cells for " + mesh.name + ": felt with voxels of " +
                                 std::to_string(field.grid->layout().voxel / objectPerModel) +
                                 " m, off by up to " + std::to_string(field.error / objectPerModel) + " m"});
-    return field.grid;
+    if (relief.empty())
+        return field.grid;
+    request.relief = relief;
+    request.voxel = field.grid->layout().voxel;
+    return fieldOfMesh(mesh, request, fieldCache(), progress.part(0.7, 1.0));
 }
 
 } // namespace
@@ -128,9 +174,11 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
     FieldRequest request;
     request.inside = std::min(kDeepest, fieldDepths().inside / scale);
     request.outside = std::clamp(fieldDepths().outside / scale, request.outside, kFarthest);
+    request.relief = reliefFor(mesh, use.fieldTexture, objectPerModel, warnings);
     const bool byError = use.fieldError > 0.0f && !(use.voxelSize > 0.0f);
     Grid grid = byError ? gridOfError(mesh, request, use.fieldError, objectPerModel, progress, warnings)
                         : gridOfVoxel(mesh, request, use.voxelSize, objectPerModel, progress, warnings);
+    checkWaves(mesh, request.relief, grid->layout().voxel, warnings);
     return withShape(mesh, std::make_shared<FieldShape>(std::move(grid)));
 }
 

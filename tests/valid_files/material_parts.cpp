@@ -167,6 +167,12 @@ void addOurs(FileDraft& draft, json& material) {
             ours["voxelSize"] = draw.real(0.02, 0.5);
             if (draw.chance(0.3))
                 ours["fieldError"] = draw.real(0.004, 0.5);
+            if (draw.chance(0.3)) {
+                ours["noiseAmplitude"] = draw.real(0.0, 0.01);
+                ours["noiseWavelength"] = draw.real(0.0, 0.2);
+                ours["latticeAmplitude"] = draw.real(0.0, 0.05);
+                ours["latticeWavelength"] = draw.real(0.05, 0.5);
+            }
         }
         if (draw.chance(0.1))
             ours["shader"] = {{"source", "bumps.glsl"}, {"parameters", {{"height", 1.0}}}};

@@ -18,6 +18,7 @@
 #include "workbench/screen/ground_grid.h"
 #include "workbench/screen/gui_pixels.h"
 #include "workbench/screen/overlays.h"
+#include "workbench/sculpt/sculpted_surface.h"
 
 #include <imgui.h>
 
@@ -45,6 +46,13 @@ ViewMode viewModeOf(const std::string& name) {
 bool hasPersistentTexture(const Scene& scene) {
     return std::ranges::any_of(
         scene.materials, [](const Material& material) { return material.haptic.program.texture.width > 0; });
+}
+
+/// Something that is felt as a field has a texture that its mesh lacks.
+bool hasFieldTexture(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const Material& material) {
+        return material.haptic.implicit && material.haptic.fieldTexture != FieldTexture{};
+    });
 }
 
 /// The hand where a stroke over the model ends, and what it has made of the textures.
@@ -85,7 +93,8 @@ int renderCommand(const RenderOptions& options) {
                       ? loadModel(options.scene, Fit::Workspace, loading)
                       : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
                                        options.animation);
-    if (model.haptic == nullptr && hasPersistentTexture(*model.scene)) // its saved values are seen
+    if (model.haptic == nullptr &&
+        (hasPersistentTexture(*model.scene) || hasFieldTexture(*model.scene))) // what is felt of them is seen
         model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
@@ -93,6 +102,8 @@ int renderCommand(const RenderOptions& options) {
     SceneRenderer renderer(*gpu);
     lightWith(options.environment, renderer);
     renderer.setScene(model.scene);
+    if (model.haptic != nullptr)
+        drawTexturedFields(*model.haptic, *model.scene, renderer);
     if (mode == ViewMode::Effects)
         renderer.setMaterialColors(effectColors(model.haptic->plan, model.scene->materials.size()).materials);
 

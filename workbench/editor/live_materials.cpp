@@ -48,7 +48,8 @@ bool mustRead(const Scene& scene, const std::vector<Material>& before, const std
 /// Touch goes on where the surfaces stay what they were.
 bool sameSurfaces(const std::vector<Material>& before, const std::vector<Material>& after) {
     const auto surface = [](const Material& m) {
-        return std::tuple(m.haptic.sides, m.haptic.implicit, m.haptic.voxelSize, m.haptic.fieldError);
+        return std::tuple(m.haptic.sides, m.haptic.implicit, m.haptic.voxelSize, m.haptic.fieldError,
+                          m.haptic.fieldTexture);
     };
     return std::ranges::equal(before, after, {}, surface, surface);
 }

@@ -70,7 +70,8 @@ std::string shown(const Scene& scene, const FactorMap& map) {
 }
 
 /// The haptic fields from the file or its PBR material, each with its origin.
-Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
+Json fieldsJson(const Scene& scene, const Material& material) {
+    const HapticMaterial& haptic = material.haptic;
     Json fields = Json::object();
     const auto add = [&](std::string_view name, const auto& field, std::string_view unit) {
         if (field.value)
@@ -80,6 +81,10 @@ Json fieldsJson(const Scene& scene, const HapticMaterial& haptic) {
     for (const HapticNumber& number : hapticNumbers())
         if (number.settled != nullptr)
             add(number.name, haptic.*number.settled, number.unit);
+        else
+            add(number.name,
+                HapticMaterial::Field<float>{material.says.ours.*number.stated, HapticSource::Touchstone},
+                number.unit);
     add("heightTexture", haptic.height, "");
     add("frictionTexture", haptic.friction, "");
     add("stiffnessTexture", haptic.stiffnessMap, "");
@@ -153,7 +158,7 @@ Json materialsJson(const Model& model) {
         }
         Json json{{"index", m},
                   {"name", material.name},
-                  {"haptic", fieldsJson(*model.scene, material.haptic)},
+                  {"haptic", fieldsJson(*model.scene, material)},
                   {"forceShading", kShading[static_cast<size_t>(material.haptic.forceShading)]},
                   {"sides", material.haptic.sides == SideChoice::Both ? "both" : "front"},
                   {"effects", effects}};

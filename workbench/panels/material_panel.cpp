@@ -80,15 +80,15 @@ class MaterialPanel {
             map(field);
         for (const ChoiceField& field : choiceFields())
             choice(field);
-        if (now_.implicit.value_or(false) || now_.voxelSize || now_.fieldError)
-            for (const NumberField& field : numberFields())
-                if (ofField(field))
-                    number(field);
+        for (const NumberField& field : numberFields())
+            if (ofField(field) && (now_.implicit.value_or(false) || field.get(now_)))
+                number(field);
     }
 
     /// Of a distance field alone.
     static bool ofField(const NumberField& field) {
-        return field.name == "voxelSize" || field.name == "fieldError";
+        const HapticNumber* const number = findHapticNumber(field.name);
+        return number != nullptr && number->settled == nullptr;
     }
 
     /// The first material of the scene that is the file's material `index`.

@@ -34,6 +34,10 @@ void SculptController::show(const Model& model, bool another) {
     sculpted_ = false;
     notice_.clear();
     surface_.forget();
+    if (felt_ == nullptr || drawn_ == nullptr)
+        return;
+    for (const int object : texturedFields(*felt_, *drawn_))
+        surface_.changed(*felt_, object, drawn_.get(), {});
 }
 
 void SculptController::sceneSculpted(const SculptedScene& scene) {

@@ -59,6 +59,33 @@ std::shared_ptr<const ReshapedMesh> packed(const FieldBlocks& blocks, const glm:
 
 } // namespace
 
+std::vector<int> texturedFields(const HapticScene& felt, const Scene& drawn) {
+    std::vector<int> found;
+    for (size_t k = 0; k < felt.objects.size(); ++k) {
+        const HapticObject& object = *felt.objects[k];
+        if (wholeField(object.shape.get()) == nullptr || object.instance < 0 || drawn.volume != nullptr)
+            continue;
+        const Instance& instance = drawn.instances[static_cast<size_t>(object.instance)];
+        const Mesh& mesh = drawn.meshes[static_cast<size_t>(instance.mesh)];
+        const FieldTexture& texture = drawn.materials[static_cast<size_t>(mesh.material)].haptic.fieldTexture;
+        const bool lattice = texture.latticeAmplitude > 0.0f && texture.latticeWavelength > 0.0f;
+        if (texture.noiseAmplitude > 0.0f || lattice)
+            found.push_back(static_cast<int>(k));
+    }
+    return found;
+}
+
+void drawTexturedFields(const HapticScene& felt, const Scene& drawn, SceneRenderer& renderer) {
+    for (const int k : texturedFields(felt, drawn)) {
+        const HapticObject& object = *felt.objects[static_cast<size_t>(k)];
+        const FieldShape& shape = *wholeField(object.shape.get());
+        FieldBlocks blocks;
+        (void)blocks.update(shape.sharedGrid(), {}, nullptr);
+        renderer.reshape(drawn.instances[static_cast<size_t>(object.instance)].mesh,
+                         *packed(blocks, glm::inverse(object.objectFromMesh), shape.voxel()));
+    }
+}
+
 SculptedSurface::~SculptedSurface() {
     {
         const std::scoped_lock lock(mutex_);

@@ -15,6 +15,12 @@
 
 namespace touchstone {
 
+/// HapticScene::objects that are felt as fields with a texture (FieldTexture), which the drawn mesh lacks.
+[[nodiscard]] std::vector<int> texturedFields(const HapticScene& felt, const Scene& drawn);
+
+/// Draws them as they are felt, in place of the scene's meshes.
+void drawTexturedFields(const HapticScene& felt, const Scene& drawn, SceneRenderer& renderer);
+
 /// The surfaces of sculpted fields for the eye: a worker meshes the blocks that changed, the renderer draws
 /// them in place of the scene's meshes. Main thread.
 class SculptedSurface {

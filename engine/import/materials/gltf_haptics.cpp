@@ -64,10 +64,12 @@ std::optional<FactorMap> factorField(ImportContext& context, const GltfDocument&
 
 void tellMeaningless(ImportContext& context, const HapticStatement& ours, const std::string& place) {
     const bool implicit = ours.implicit.value_or(false);
-    for (const auto& [stated, name] :
-         {std::pair(ours.voxelSize, ".voxelSize"), {ours.fieldError, ".fieldError"}})
-        if (stated && !implicit)
-            context.warn(place + name, "has no meaning without representation \"implicit\"");
+    for (const HapticNumber& number : hapticNumbers())
+        if (number.settled == nullptr && ours.*number.stated && !implicit)
+            context.warn(place + "." + std::string(number.name),
+                         "has no meaning without representation \"implicit\"");
+    if (implicit && ours.latticeAmplitude.value_or(0.0f) > 0.0f && !ours.latticeWavelength)
+        context.warn(place + ".latticeAmplitude", "has no meaning without latticeWavelength");
 }
 
 void readChoices(ImportContext& context, const json& object, const std::string& place,

@@ -41,9 +41,9 @@ double offInside(const FieldShape& field, const std::array<glm::dvec3, 3>& corne
     return worst;
 }
 
-/// Voxels to choose from: 2^(-6 - i / 2).
+/// Voxels to choose from.
 double voxelOf(int i) {
-    return std::exp2(-6.0 - 0.5 * i);
+    return kCoarsestWithin * std::exp2(-0.5 * i);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <openvdb/tools/MeshToVolume.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -48,6 +49,34 @@ FieldLayout layoutFor(const HapticObject& mesh, const FieldRequest& request) {
     return layout;
 }
 
+/// The relief is whole up to here from the surface: over all places where it puts the surface, and two
+/// voxels.
+double wholeUpTo(const FieldRelief& relief, double voxel) {
+    return relief.highest() + 2.0 * voxel;
+}
+
+/// Subtracts the relief from the nodes of a brick, in proportion to what reliefShare leaves of it.
+void layRelief(const FieldLayout& layout, const FieldRequest& request, const glm::ivec3& first,
+               std::span<float> nodes) {
+    const double whole = wholeUpTo(request.relief, request.voxel);
+    FieldRelief relief = request.relief;
+    if (relief.noiseWavelength < layout.voxel)
+        relief.noiseWavelength = 0.0; // no two nodes share a value
+    size_t i = 0;
+    for (int z = 0; z < FieldGrid::kNodes; ++z)
+        for (int y = 0; y < FieldGrid::kNodes; ++y)
+            for (int x = 0; x < FieldGrid::kNodes; ++x) {
+                float& node = nodes[i++];
+                const auto f = static_cast<double>(node);
+                const double share = reliefShare(f, whole, f < 0.0 ? request.inside : request.outside);
+                if (!(share > 0.0))
+                    continue;
+                const glm::ivec3 at = first + glm::ivec3(x, y, z);
+                const glm::dvec3 place = layout.origin + layout.voxel * glm::dvec3(at);
+                node = static_cast<float>(f - share * reliefAt(relief, place, at));
+            }
+}
+
 using Soup = openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I>;
 
 /// `solid`: negative inside; else a shell.
@@ -83,10 +112,16 @@ std::shared_ptr<const FieldGrid> gridOf(const Soup& soup, const FieldLayout& lay
                     for (int x = 0; x < FieldGrid::kNodes; ++x)
                         nodes[i++] = read.getValue({first.x + x, first.y + y, first.z + z}) -
                                      static_cast<float>(shell);
+            if (!request.relief.empty())
+                layRelief(layout, request, first, nodes);
         });
 }
 
 } // namespace
+
+double reachOf(const FieldRelief& relief, double voxel) {
+    return relief.empty() ? 0.0 : 2.0 * wholeUpTo(relief, voxel);
+}
 
 double finestVoxel(const HapticObject& mesh, double outside) {
     glm::dvec3 low, size;
@@ -107,8 +142,9 @@ std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const Fie
     progress.stopIfCancelled();
     // Clamped values must not enter a cell through which the surface passes.
     FieldRequest request = asked;
-    request.inside = std::max(asked.inside, 2.0 * asked.voxel);
-    request.outside = std::max(asked.outside, 2.0 * asked.voxel);
+    const double least = std::max(2.0 * asked.voxel, reachOf(asked.relief, asked.voxel));
+    request.inside = std::max(asked.inside, least);
+    request.outside = std::max(asked.outside, least);
     const FieldLayout layout = layoutFor(mesh, request);
     std::vector<openvdb::Vec3s> points;
     points.reserve(mesh.vertices.size());
@@ -141,6 +177,12 @@ uint64_t keyOf(const HapticObject& mesh, const FieldRequest& request) {
     hash.add(mesh.closed);
     for (const double number : {request.voxel, request.inside, request.outside})
         hash.add(number);
+    if (const FieldRelief& relief = request.relief; !relief.empty()) {
+        for (const double number :
+             {relief.noise, relief.noiseWavelength, relief.lattice, relief.latticeWavelength})
+            hash.add(number);
+        hash.add(relief.seed);
+    }
     hash.add(mesh.vertices.size());
     for (const glm::vec3& v : mesh.vertices)
         for (int axis = 0; axis < 3; ++axis)

@@ -35,6 +35,7 @@ struct ObjectUse {
     bool implicit = false;    ///< felt as a distance field: nothing of the above
     float voxelSize = 0.0f;   ///< of the field, model metres; 0: chosen from fieldError or the object's size
     float fieldError = 0.0f;  ///< how far its surface may be from the triangles, model metres; 0: not stated
+    FieldTexture fieldTexture{};
     bool operator==(const ObjectUse&) const = default;
 };
 

@@ -163,7 +163,8 @@ constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retarda
     "heightTexture": {"index": 0, "texCoord": 1, "scale": 0.001, "midLevel": 0},
     "frictionTexture": {"index": 1, "min": 0.1, "max": 2}, "stiffnessTexture": {"index": 1},
     "dampingTexture": {"index": 1, "extensions": {"KHR_texture_transform": {}}}, "forceShading": "twoPass",
-    "representation": "implicit", "voxelSize": 0.001, "fieldError": 0.0001, "shader": {"source":
+    "representation": "implicit", "voxelSize": 0.001, "fieldError": 0.0001, "noiseAmplitude": 0.001,
+    "noiseWavelength": 0.01, "noiseSeed": 3, "latticeAmplitude": 0, "latticeWavelength": 0.02, "shader": {"source":
     "data:text/plain,parameter%20float%20a%20%3D%201%3B%20//%200..2%0Avoid%20touch(const%20in%20Touch%20before%2C%20inout%20Surface%20after)%20%7B%20after.damping%20%3D%20a%3B%20%7D%0A",
     "parameters": {"a": 1}, "name": "wood", "persistentTexture": {"width": 2, "height": 3, "initial": 0.5,
     "values": [{"node": 0, "surface": 0, "data": "data:application/zlib;base64,eJxjYGCwZ8CCARBWAXs="}]}},
@@ -198,6 +199,9 @@ constexpr const char* kWrong[] = {
     R"({"representation": "voxels"})",
     R"({"representation": "implicit", "voxelSize": 0})",
     R"({"representation": "implicit", "fieldError": 0})",
+    R"({"representation": "implicit", "noiseAmplitude": -0.001})",
+    R"({"representation": "implicit", "noiseSeed": 1e9})",
+    R"({"representation": "implicit", "latticeWavelength": 0})",
     R"({"sides": "back"})",
     R"({"textureMapping": {"surface": "cone"}})",
     R"({"textureMapping": {"repeat": [1]}})",

@@ -130,6 +130,30 @@ TEST(GltfHaptics, WrongTypesAndRangesNameTheField) {
                    "out of range");
     EXPECT_REFUSED(withOurs({{"voxelSize", -1}}), place + ".voxelSize", "out of range");
     EXPECT_REFUSED(withOurs({{"fieldError", 0}}), place + ".fieldError", "out of range");
+    EXPECT_REFUSED(withOurs({{"noiseAmplitude", -1e-9}}), place + ".noiseAmplitude", "out of range");
+    EXPECT_REFUSED(withOurs({{"noiseWavelength", "long"}}), place + ".noiseWavelength", "should be a number");
+    EXPECT_REFUSED(withOurs({{"noiseSeed", 1e9}}), place + ".noiseSeed", "out of range");
+    EXPECT_REFUSED(withOurs({{"latticeAmplitude", 1e31}}), place + ".latticeAmplitude", "out of range");
+    EXPECT_REFUSED(withOurs({{"latticeWavelength", 0}}), place + ".latticeWavelength", "out of range");
+}
+
+TEST(GltfHaptics, ReadsTheTextureOfADistanceField) {
+    const ScenePtr scene = load(withOurs({{"representation", "implicit"},
+                                          {"noiseAmplitude", 0.0002},
+                                          {"noiseWavelength", 0.004},
+                                          {"noiseSeed", 7},
+                                          {"latticeAmplitude", 0.0006},
+                                          {"latticeWavelength", 0.012}}));
+    EXPECT_TRUE(scene->warnings.empty());
+    EXPECT_EQ(scene->materials[0].haptic.fieldTexture, (FieldTexture{.noiseAmplitude = 0.0002f,
+                                                                     .noiseWavelength = 0.004f,
+                                                                     .noiseSeed = 7.0f,
+                                                                     .latticeAmplitude = 0.0006f,
+                                                                     .latticeWavelength = 0.012f}));
+    EXPECT_TRUE(
+        warns(*load(withOurs({{"noiseAmplitude", 0.0002}})), ".noiseAmplitude", "without representation"));
+    EXPECT_TRUE(warns(*load(withOurs({{"representation", "implicit"}, {"latticeAmplitude", 0.0002}})),
+                      ".latticeAmplitude", "without latticeWavelength"));
 }
 
 TEST(GltfHaptics, AFieldThatIsNotOursIsToldAndTheRestHolds) {

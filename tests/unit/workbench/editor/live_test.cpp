@@ -101,11 +101,12 @@ void expectTheSameForAllChanges(const std::filesystem::path& path) {
                     const auto friction = next.friction, stiffness = next.stiffnessMap,
                                damping = next.dampingMap;
                     const auto implicit = next.implicit; // another representation is another geometry
-                    const auto voxelSize = next.voxelSize, fieldError = next.fieldError;
+                    const HapticStatement was = next;    // so are other voxels and another texture
                     next = HapticStatement{};
                     next.implicit = implicit;
-                    next.voxelSize = voxelSize;
-                    next.fieldError = fieldError;
+                    for (const HapticNumber& number : hapticNumbers())
+                        if (number.settled == nullptr)
+                            next.*number.stated = was.*number.stated;
                     next.height = height;
                     next.friction = friction;
                     next.stiffnessMap = stiffness;
