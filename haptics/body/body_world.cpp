@@ -231,9 +231,33 @@ void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) 
             rotate(masses_[b], state, stepOf(masses_[b], state, dt));
     }
     solver_->correct(s);
+    keepSound();
     for (const int body : solver_->met())
         wake(body);
     sleepWhereQuiet(dt);
+}
+
+/// Sizes, masses and joints of a file may be such that a step leaves what numbers hold: then the body stands
+/// still where the hands felt it last, and the impulses, which would do the same again, are dropped.
+void BodyWorld::keepSound() noexcept {
+    bool lost = false;
+    for (const int body : awake_) {
+        BodyState& state = states_[static_cast<size_t>(body)];
+        if (isSound(state)) [[likely]]
+            continue;
+        state.pose = state.published;
+        state.velocity = state.spin = glm::dvec3(0.0);
+        lost = true;
+    }
+    if (!lost) [[likely]]
+        return;
+    solver_->setContactCount(0);
+    for (BodyJoint& joint : solver_->joints()) {
+        joint.impulse = {};
+        for (std::array<double, 3>* angles : {&joint.turns, &joint.lastAngle})
+            for (double& angle : *angles)
+                angle = std::isfinite(angle) ? angle : 0.0;
+    }
 }
 
 int BodyWorld::islandOf(int body) noexcept {

@@ -136,6 +136,7 @@ class BodyWorld {
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
     void fillInput(FinderInput& input) const noexcept;
     void sleepWhereQuiet(double dt) noexcept;
+    void keepSound() noexcept;
     void publish() noexcept;
 
     struct Touch {

@@ -183,6 +183,15 @@ void BodyBuilder::readBody(size_t b) {
     mass.radius = std::sqrt(2.5 * largest * mass.inverse);
     state.velocity = node.vector(stated.velocity);
     state.spin = node.direction(stated.spin);
+    const glm::dvec3 numbers = mass.inertia + mass.inverseInertia;
+    if (!isSound(state) || !std::isfinite(numbers.x + numbers.y + numbers.z + mass.inverse + mass.radius)) {
+        warn("physics", "body '" + stated.name +
+                            "' is too small, too large or too flat to be moved: it stays where it is");
+        mass = {};
+        state = {};
+        if (const glm::dvec3& at = node.translation; std::isfinite(at.x + at.y + at.z))
+            state.pose.position = state.published.position = at;
+    }
     world_->names_.push_back(stated.name);
     world_->masses_.push_back(mass);
     world_->states_.push_back(state);

@@ -99,6 +99,16 @@ FaceNormal nearestFace(const btConvexPolyhedron& hull, const btTransform& at, co
     return best;
 }
 
+/// Its faces; null where a shape that is flat or thin beyond floats has none that Bullet could clip against.
+const btConvexPolyhedron* facesOf(const btPolyhedralConvexShape& shape) {
+    const btConvexPolyhedron* polyhedron = shape.getConvexPolyhedron();
+    bool sound = polyhedron != nullptr && polyhedron->m_faces.size() > 0;
+    for (int i = 0; sound && i < polyhedron->m_faces.size(); ++i)
+        for (const btScalar number : polyhedron->m_faces[i].m_plane)
+            sound = sound && std::isfinite(number);
+    return sound ? polyhedron : nullptr;
+}
+
 } // namespace
 
 struct ContactFinder::Bullet {
@@ -151,7 +161,7 @@ void ContactFinder::Bullet::make(const ColliderForm& form, Made& to) const {
         auto box = std::make_unique<btBoxShape>(bulletVector(0.5 * form.size, unit));
         box->setMargin(0.02f * box->getHalfExtentsWithMargin()[box->getHalfExtentsWithMargin().minAxis()]);
         box->initializePolyhedralFeatures();
-        to.polyhedron = box->getConvexPolyhedron();
+        to.polyhedron = facesOf(*box);
         to.convex = box.get();
         to.shape = std::move(box);
         return;
@@ -234,7 +244,7 @@ void ContactFinder::Bullet::make(const ColliderForm& form, Made& to) const {
     shape->recalcLocalAabb();
     shape->setMargin(0.001f);
     shape->initializePolyhedralFeatures();
-    to.polyhedron = shape->getConvexPolyhedron();
+    to.polyhedron = facesOf(*shape);
     to.convex = shape.get();
     to.shape = std::move(shape);
 }

@@ -41,6 +41,14 @@ struct BodyState {
     bool stirred = false; ///< it is not where the file puts it
 };
 
+/// False where a step has left the numbers, or the workspace by so much that forces would: beyond 1e9 m,
+/// 1e6 m/s or 1e9 rad/s.
+[[nodiscard]] inline bool isSound(const BodyState& state) {
+    const glm::dvec3 &at = state.pose.position, &v = state.velocity, &w = state.spin;
+    return glm::dot(at, at) < 1e18 && glm::dot(v, v) < 1e12 && glm::dot(w, w) < 1e18 &&
+           glm::dot(state.pose.rotation, state.pose.rotation) < 2.0;
+}
+
 /// What does not change.
 struct BodyMass {
     double inverse = 0.0;           ///< 1/kg; 0: nothing pushes it

@@ -1,6 +1,8 @@
 #include "tests/valid_files/material_parts.h"
 
 #include "tests/support/encoded_image.h"
+#include "tests/valid_files/physics_parts.h"
+#include "tests/valid_files/program_parts.h"
 
 namespace touchstone::test {
 namespace {
@@ -143,6 +145,37 @@ void addCore(FileDraft& draft, json& material) {
         material["pbrMetallicRoughness"] = pbr;
 }
 
+/// Local deformation, and a damper by its time.
+void addDents(FileDraft& draft, json& ours) {
+    Draw& draw = draft.draw;
+    ours["deformationRadius"] = draw.pick(std::vector{0.0, 0.002, 0.05, 3.0});
+    if (draw.chance(0.7))
+        ours["deformationStiffness"] = draw.pick(std::vector{1.0, 300.0, 5000.0});
+    if (draw.chance(0.5))
+        ours["deformationLinear"] = draw.real(-3.0, 3.0);
+    if (draw.chance(0.5))
+        ours["deformationQuadratic"] = draw.real(-3.0, 3.0);
+    if (draw.chance(0.5))
+        ours["relaxationTime"] = draw.pick(std::vector{0.0, 1e-4, 0.1, 10.0});
+    if (draw.chance(0.5))
+        ours["retardationTime"] = draw.pick(std::vector{0.0, 1e-3, 0.1});
+}
+
+void addMapping(FileDraft& draft, json& ours) {
+    Draw& draw = draft.draw;
+    json mapping = json::object();
+    if (draw.chance(0.8))
+        mapping["surface"] = draw.pick(std::vector<std::string>{"plane", "cylinder", "sphere", "box"});
+    if (draw.chance(0.5))
+        mapping["by"] = draw.pick(std::vector<std::string>{"position", "normal"});
+    if (draw.chance(0.5))
+        mapping["repeat"] = {draw.between(1, 16) * (draw.chance(0.2) ? -1 : 1), draw.between(1, 16)};
+    if (draw.chance(0.5))
+        mapping["rotation"] =
+            draw.pick(std::vector<json>{{0, 0, 0, 1}, {1, 0, 0, 0}, {0.6, 0, 0, 0.8}, {0.5, 0.5, 0.5, 0.5}});
+    ours["textureMapping"] = mapping;
+}
+
 void addOurs(FileDraft& draft, json& material) {
     Draw& draw = draft.draw;
     json ours = json::object();
@@ -177,6 +210,11 @@ void addOurs(FileDraft& draft, json& material) {
         if (draw.chance(0.1))
             ours["shader"] = {{"source", "bumps.glsl"}, {"parameters", {{"height", 1.0}}}};
     }
+    if (draft.has(Feature::Dents))
+        addDents(draft, ours);
+    addProgram(draft, ours);
+    if (draft.has(Feature::TextureMapping))
+        addMapping(draft, ours);
     if (draft.has(Feature::HeightMap))
         put(draft, ours, "heightTexture",
             {{"scale", draw.pick(std::vector{1e-4, -5e-4, 2e-3, 0.0, 0.5})},
@@ -252,25 +290,6 @@ void addMpeg(FileDraft& draft) {
             mesh["extensions"]["MPEG_material_haptic"] = {{"hapticMaterialIndex", draw.below(count)}};
 }
 
-void addPhysics(FileDraft& draft) {
-    Draw& draw = draft.draw;
-    json materials = json::array();
-    for (size_t n = 1 + draw.below(2); n > 0; --n) {
-        json material = {{"frictionCombine", "average"}, {"restitution", 0.5}};
-        if (draw.chance(0.7))
-            material["staticFriction"] = draw.real(0.0, 2.0);
-        if (draw.chance(0.7))
-            material["dynamicFriction"] = draw.real(0.0, 2.0);
-        materials.push_back(material);
-    }
-    draft.use("KHR_physics_rigid_bodies");
-    draft.maker.json["extensions"]["KHR_physics_rigid_bodies"] = {{"physicsMaterials", materials}};
-    for (const size_t node : draft.meshNodes)
-        if (draw.chance(0.7))
-            draft.maker.json["nodes"][node]["extensions"]["KHR_physics_rigid_bodies"]["collider"] = {
-                {"geometry", {{"node", node}}}, {"physicsMaterial", draw.below(materials.size())}};
-}
-
 } // namespace
 
 void addMaterials(FileDraft& draft) {
@@ -278,7 +297,8 @@ void addMaterials(FileDraft& draft) {
     for (const Feature feature :
          {Feature::CoreFactors, Feature::CoreMaps, Feature::NormalMap, Feature::HeightMap,
           Feature::FactorMaps, Feature::HapticFields, Feature::SeveralMaterials, Feature::MaterialExtensions,
-          Feature::OddImages, Feature::TextureTransform, Feature::Samplers})
+          Feature::OddImages, Feature::TextureTransform, Feature::Samplers, Feature::Dents, Feature::Programs,
+          Feature::PersistentTextures, Feature::TextureMapping})
         any = any || draft.has(feature);
     if (!any)
         return;
@@ -295,8 +315,7 @@ void addMaterials(FileDraft& draft) {
 void addForeignHaptics(FileDraft& draft) {
     if (draft.has(Feature::Mpeg))
         addMpeg(draft);
-    if (draft.has(Feature::Physics))
-        addPhysics(draft);
+    addPhysics(draft);
 }
 
 } // namespace touchstone::test

@@ -23,6 +23,7 @@ namespace touchstone::test {
     /* materials */                                                                                                  \
     X(CoreFactors) X(CoreMaps) X(NormalMap) X(HeightMap) X(FactorMaps) X(HapticFields) X(TextureTransform)            \
     X(Samplers) X(OddImages) X(SeveralMaterials) X(MaterialExtensions) X(Physics) X(Mpeg)                             \
+    X(Dents) X(Programs) X(PersistentTextures) X(TextureMapping) X(Bodies)                                           \
     /* motion and deformation */                                                                                     \
     X(Translations) X(Rotations) X(Scales) X(Weights) X(Steps) X(Cubic) X(NormalizedKeys) X(Morph) X(Skin)            \
     X(GpuInstances)                                                                                                   \

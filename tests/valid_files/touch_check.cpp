@@ -3,8 +3,10 @@
 #include "devices/stroke/stroke_path.h"
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
+#include "haptics/body/body_world.h"
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/scene/built_for.h"
+#include "haptics/texture/persistent_textures.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/scene_promises.h"
 #include "tests/valid_files/draw.h"
@@ -47,6 +49,10 @@ HapticSettings anySettings(Draw& draw) {
     set("textureGradient", {"central", "precomputed", "analytic"});
     set("friction", {"zilles", "ho", "elastoplastic", "velocityThreshold", "kim", "off"});
     set("passivity", {"observe", "control", "off"});
+    set("programs", {"dual", "dual", "central", "noGradient", "off"});
+    set("deformation", {"on", "on", "off"});
+    set("integrator", {"semiImplicit", "implicit", "explicit"});
+    set("grasp", {"off", "off", "touch"});
     settings.proxyRadius = draw.pick(std::vector{0.0, 0.0005, 0.005});
     settings.stiffness = draw.pick(std::vector{0.0, 0.0, 300.0, 3000.0});
     settings.damping = draw.pick(std::vector{-1.0, 0.0, 2.0});
@@ -76,6 +82,7 @@ class Touch {
         sample.valid = valid;
         (void)hand_.tick(settings_, sample, kTick * static_cast<double>(tick_), kTick);
         check(valid && finite(hip));
+        checkWorld();
         last_ = output().command.force();
         ++tick_;
     }
@@ -118,11 +125,29 @@ class Touch {
             const bool known = static_cast<size_t>(o.object) < model_.haptic->objects.size();
             require(known, "a touched object that is not there");
             const auto& object = known ? model_.haptic->objects[static_cast<size_t>(o.object)] : nullptr;
-            require(object == nullptr || object->shape != nullptr ||
+            const bool held = settings_.grasp != GraspMode::Off && o.triangle == -1;
+            require(object == nullptr || object->shape != nullptr || held ||
                         (o.triangle >= 0 && static_cast<size_t>(o.triangle) < object->triangleCount()),
                     "a touched triangle that is not there");
         }
         report_.contactTicks += o.contacts > 0 ? 1 : 0;
+    }
+
+    /// What touch moves and changes.
+    void checkWorld() {
+        if (const auto& bodies = hand_.world.bodies(); bodies != nullptr)
+            for (const body::BodyState& state : bodies->states()) {
+                require(finite(state.pose.position) && finite(state.velocity) && finite(state.spin),
+                        "a body whose state is not finite");
+                require(std::abs(glm::length(state.pose.rotation) - 1.0) < 1e-6, "a body with no rotation");
+            }
+        // Each texel of each texture: now and then.
+        if (const auto& textures = hand_.world.textures(); textures != nullptr && tick_ % 50 == 0)
+            for (size_t object = 0; object < textures->objects(); ++object)
+                if (const PersistentTexture* texture = textures->at(static_cast<int>(object)))
+                    for (const float value : texture->values())
+                        require(value >= texture->size().minimum && value <= texture->size().maximum,
+                                "a texel beyond its range");
     }
 
     const Model& model_;
@@ -163,6 +188,15 @@ StrokePath strokeFor(const Model& model) {
     }
 }
 
+/// Programs are compiled anew where nobody holds them any more, 0.1 s each: those of these files are few.
+void keepPrograms(const Scene& scene) {
+    static std::vector<std::shared_ptr<const SurfaceProgram>> kept;
+    for (const Material& material : scene.materials)
+        if (const auto& program = material.haptic.program.compiled;
+            program != nullptr && std::ranges::find(kept, program) == kept.end() && kept.size() < 16)
+            kept.push_back(program);
+}
+
 void touchAll(const Model& model, uint64_t seed, TouchReport& report) {
     const StrokePath stroke = strokeFor(model);
     Draw draw(seed);
@@ -196,6 +230,7 @@ TouchReport openAndTouch(const std::vector<uint8_t>& file, uint64_t seed) {
     try {
         Model model;
         model.scene = loadSceneFromMemory(file, "/nonexistent");
+        keepPrograms(*model.scene);
         if (const auto broken = brokenPromise(*model.scene))
             report.findings.push_back("the scene breaks its promise: " + *broken);
         report.triangles = model.scene->triangleCount();

@@ -68,6 +68,33 @@ TEST(Contacts, ABoxThatIsThrownAtAWallStaysBeforeIt) {
     }
 }
 
+/// Bullet clipped against the faces of hulls that have none, and inertia was 1/0.
+TEST(Contacts, BodiesTooFlatOrTooSmallForNumbersHarmNobody) {
+    using Scale = std::vector<double>;
+    for (const Scale& scale :
+         {Scale{1.0, 0.0, 1.0}, Scale{0.0, 0.0, 0.0}, Scale{0.0, 1.0, 0.0}, Scale{1e-9, 1e-9, 1e-9},
+          Scale{1e-20, 1.0, 1.0}, Scale{1e-150, 1e-150, 1e-150}, Scale{1e9, 1e9, 1e9}})
+        for (const bool stated : {false, true}) {
+            BodyMaker maker = onFloor(0.6, 0.0);
+            (void)addCube(maker, "sound", {0.0, 0.01, 0.0}, 0.02, 0.05);
+            for (int i = 0; i < 3; ++i) {
+                const size_t odd = addCube(maker, "odd", {0.012 * i, 0.02 + 0.003 * i, 0.0}, 0.02, 0.05);
+                maker.json["nodes"][odd]["scale"] = scale;
+                maker.part(odd)["collider"]["geometry"] = {{"node", odd}, {"convexHull", true}};
+                if (!stated)
+                    maker.motion(odd, nlohmann::json::object());
+            }
+            Bodies bodies(maker);
+            bodies.run(0.3);
+            for (const body::BodyState& state : bodies.world->states())
+                EXPECT_TRUE(body::isSound(state)) << scale[0] << " " << scale[1];
+            if (scale[0] < 1.0) { // the large ones bury it
+                EXPECT_LT(glm::length(bodies.at("sound").pose.position - glm::dvec3(0.0, 0.01, 0.0)), 0.02)
+                    << scale[0] << " " << scale[1];
+            }
+        }
+}
+
 TEST(Contacts, EqualPosesGiveEqualContacts) {
     BodyMaker maker = onFloor(0.5, 0.0);
     for (int i = 0; i < 12; ++i) {
