@@ -101,6 +101,8 @@ std::vector<SceneFile> allScenes() {
     scenes.push_back(moving());
     scenes.push_back(breathing());
     scenes.push_back(jellyDoughnut());
+    scenes.push_back(cloth());
+    scenes.push_back(jelly());
     scenes.push_back(virtualBump());
     scenes.push_back(fieldTorus());
     scenes.push_back(materials());

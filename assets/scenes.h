@@ -33,6 +33,10 @@ struct SceneFile {
 /// The doughnut of 64,800 triangles, which gives way under the hand (docs/deforming.md, Local deformation).
 [[nodiscard]] SceneFile jellyDoughnut();
 
+/// Soft bodies (docs/deforming.md): a cloth over a ball; a jelly that breathes.
+[[nodiscard]] SceneFile cloth();
+[[nodiscard]] SceneFile jelly();
+
 /// Spheres, lines and points before a plate: all supported appearances.
 [[nodiscard]] SceneFile materials();
 

@@ -6,6 +6,7 @@
 #include "engine/import/geometry/gltf_animations.h"
 #include "engine/import/geometry/gltf_cameras.h"
 #include "engine/import/geometry/gltf_physics.h"
+#include "engine/import/geometry/gltf_soft_bodies.h"
 #include "engine/import/geometry/scene_build.h"
 #include "engine/import/geometry/skin.h"
 #include "engine/import/materials/gltf_images.h"
@@ -58,6 +59,7 @@ std::shared_ptr<Scene> importGltf(ImportContext& context, GltfFile file, const F
     scene->cameras = readCameras(context, document, forest, scene->nodes);
     scene->animation = chosenAnimation(context, scene->animations, animation);
     scene->physics = readPhysicsBodies(context, document, forest, *scene);
+    readSoftBodies(context, document, forest, *scene);
     context.enter(context.progress().part(0.8, 0.85));
     scene->bounds = sceneBounds(context, *scene);
 

@@ -24,6 +24,8 @@ uint64_t MeshDeformation::memoryBytes() const {
 }
 
 bool MeshDeformation::drivenBy(const Animation& animation, const std::vector<bool>& moved) const {
+    if (soft != nullptr)
+        return false;
     const bool bends = std::ranges::any_of(
         joints, [&](int joint) { return static_cast<bool>(moved[static_cast<size_t>(joint)]); });
     return bends || std::ranges::any_of(animation.channels, [&](const AnimationChannel& channel) {

@@ -1,14 +1,16 @@
 #pragma once
-// What moves the vertices of a mesh: a skin, morph targets, or both. Kept only where an animation of the file
-// drives them.
+// What moves the vertices of a mesh: a skin, morph targets, or both, kept only where an animation of the file
+// drives them; or forces.
 
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/soft_body.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace touchstone {
@@ -32,6 +34,7 @@ struct MeshDeformation {
     std::vector<uint32_t> vertexJoints;   ///< perVertex each, below joints.size()
     std::vector<float> vertexWeights;     ///< perVertex each, at least 0, with a positive sum
     glm::dvec3 sceneFromSkin{0.0};        ///< m: a skinned mesh's frame is the scene's, moved here
+    std::shared_ptr<const SoftBody> soft; ///< a soft body: nothing of the above moves it
 
     [[nodiscard]] uint64_t memoryBytes() const;
     /// True where `animation` moves a vertex. `moved`: movedNodes.

@@ -326,7 +326,7 @@ void Replayer::resume(const RecordedTick& tick) {
     if (!known_)
         return;
     // A scene with bodies is known where their state is.
-    if (touched->world.bodies() != nullptr && !(goesOn && change_))
+    if ((touched->world.bodies() != nullptr || touched->world.soft() != nullptr) && !(goesOn && change_))
         known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
 }
 

@@ -7,6 +7,7 @@
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/take_up_part.h"
 #include "haptics/texture/persistent_textures.h"
+#include "haptics/world/soft_objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +149,7 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         waiting_.reset();
         lastScene_.reset();
         bodies_ = nullptr;
+        soft_ = nullptr;
         return 0;
     }
     if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get(), *scene))
@@ -158,6 +160,7 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
         world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
     bodies_ = world.bodies();
+    soft_ = world.soft();
     const uint32_t number = nextSceneNumber();
     holdTextures(number, world);
     if (driven != nullptr)
@@ -291,6 +294,8 @@ bool ServoLoop::popRecord(TickRecord& record) {
 }
 
 bool ServoLoop::popBodyState(uint64_t& tick, std::vector<std::byte>& bytes) {
+    if (soft_ != nullptr)
+        return soft_->takeKept(tick, bytes);
     return bodies_ != nullptr && bodies_->takeKept(tick, bytes);
 }
 
@@ -404,6 +409,8 @@ void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
         record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
     if (touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
         touch.offer->world.bodies()->keep(record.tick);
+    if (touch.offer != nullptr && touch.offer->world.soft() != nullptr)
+        touch.offer->world.soft()->keep(record.tick);
     const size_t count = touch.checkpoints.size();
     for (size_t i = 0; i < count; ++i) {
         const size_t hand = count - 1 - i;

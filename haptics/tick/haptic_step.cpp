@@ -64,13 +64,14 @@ template <class Solver, class Stopwatch>
 /// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
 /// finite ends at the hand's safety stage.
 [[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,
-                                   double share, double stiffness, ContactForces& parts, WorldState& world) {
+                                   double share, double stiffness, double most, ContactForces& parts,
+                                   WorldState& world) {
     if (!std::isfinite(force.x + force.y + force.z))
         return;
     parts.complete(force);
     for (size_t i = 0; i < parts.count; ++i)
         world.push(parts.object[i], workspaceFromReference.point(parts.point[i]),
-                   -share * workspaceFromReference.direction(parts.force[i]), stiffness);
+                   -share * workspaceFromReference.direction(parts.force[i]), stiffness, most);
 }
 
 /// The fraction of a contact's force with which the hand pushes: no more than its device can exert.
@@ -132,7 +133,7 @@ template <class Solver, class Stopwatch>
         output.force *= share;
     if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
         pushObjects(workspaceFromReference, felt.force, bornByDevice(tick, felt, share), felt.stiffness,
-                    *tick.parts, world);
+                    tick.limits.maxForce, *tick.parts, world);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
     // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick
@@ -207,7 +208,7 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
                              output.zoom;
     output.force += force;
     if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
-        world.push(object, output.hip, -force, 0.0); // a damper
+        world.push(object, output.hip, -force, 0.0, tick.limits.maxForce); // a damper
 }
 
 bool holdsOn(const HapticSettings& settings, const DeviceSample& sample) {

@@ -6,6 +6,7 @@
 #include "haptics/scene/scene_programs.h"
 #include "haptics/texture/persistent_textures.h"
 #include "haptics/world/driven_objects.h"
+#include "haptics/world/soft_objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,15 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies b
         motions_ = haptic.restMotions;
     if (bodies == WorldBodies::Simulated)
         textures_ = persistentTextures(haptic, std::move(textures));
+    if (deforming_ != nullptr)
+        own_ = &deforming_->scene();
+    else if (bodies == WorldBodies::Simulated)
+        soft_ = SoftObjects::of(scene_, haptic);
+    if (soft_ != nullptr) {
+        own_ = &soft_->scene();
+        motions_ = haptic.restMotions;
+        collects_ = true;
+    }
     if (scene_ == nullptr || scene_->physics == nullptr)
         return;
     bodies_ = goOn != nullptr ? std::move(goOn) : body::BodyWorld::make(*scene_, haptic);
@@ -131,6 +141,8 @@ ObjectMotions WorldState::advance(double time, bool hold) noexcept {
         driven_->advance(motions_, !sampled_);
     if (deforming_ != nullptr) [[unlikely]]
         deforming_->advance(time, !sampled_, hold, motions_);
+    if (soft_ != nullptr) [[unlikely]]
+        advanceSoft(hold);
     if (bodies_ != nullptr)
         advanceBodies(time);
     sampled_ = true;
@@ -174,6 +186,11 @@ void WorldState::advanceBodies(double time) noexcept {
     still_ = !moved && movers_.empty() && deforming_ == nullptr && sampled_;
 }
 
+void WorldState::advanceSoft(bool hold) noexcept {
+    soft_->advance(!sampled_, hold, motions_);
+    still_ = soft_->still() && movers_.empty() && driven_ == nullptr;
+}
+
 void WorldState::showBodies(const body::BodyPoses& poses) {
     if (shown_ != nullptr)
         *shown_ = poses;
@@ -189,6 +206,35 @@ void WorldState::integrateBodies(const HapticSettings& settings, double dt) noex
         bodies_->integrate(settings.integrator, settings.gravity, dt);
 }
 
+void WorldState::pushSoft(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
+                          double most) noexcept {
+    soft_->push(object, point, force, stiffness, most);
+}
+
+void WorldState::integrateSoft(const HapticSettings& settings, double dt) noexcept {
+    soft_->integrate(settings.gravity, dt);
+}
+
+void WorldState::stepSoftApart() const {
+    soft_->stepApart();
+}
+
+bool WorldState::softHeld() const noexcept {
+    return soft_->held();
+}
+
+std::vector<std::byte> WorldState::bodyState() const {
+    std::vector<std::byte> bytes;
+    if (soft_ != nullptr) {
+        bytes.resize(soft_->stateSize());
+        soft_->save(bytes);
+    } else if (bodies_ != nullptr) {
+        bytes.resize(bodies_->stateCapacity());
+        bytes.resize(bodies_->save(bytes));
+    }
+    return bytes;
+}
+
 void WorldState::applyStrokes() noexcept {
     textures_->applyQueued();
 }
@@ -198,6 +244,8 @@ void WorldState::shareTextures(std::shared_ptr<PersistentTextures> textures) noe
 }
 
 bool WorldState::restoreBodies(std::span<const std::byte> bytes) noexcept {
+    if (soft_ != nullptr)
+        return soft_->restore(bytes);
     if (bodies_ == nullptr || !bodies_->restore(bytes))
         return false;
     bodies_->showPublished(motions_);
@@ -230,6 +278,8 @@ uint32_t WorldState::poseHash() const noexcept {
     Hash64 hash;
     if (deforming_ != nullptr)
         deforming_->addTo(hash);
+    if (soft_ != nullptr)
+        soft_->addTo(hash);
     for (const Mover& mover : movers_) {
         const ObjectMotion& motion = motions_[mover.object];
         const Similarity& pose = motion.workspaceFromObject;

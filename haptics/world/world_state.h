@@ -26,6 +26,7 @@ struct BodyPoses;
 } // namespace body
 class PersistentTextures; // haptics/texture/persistent_textures.h
 class DrivenObjects;      // haptics/world/driven_objects.h
+class SoftObjects;        // haptics/world/soft_objects.h
 
 /// Warnings where the playing animation is felt differently from what is seen.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
@@ -72,15 +73,19 @@ class WorldState {
     /// `scene`, from which the world was made, or its copy with the vertices of this tick where some deform:
     /// what all queries of this tick read.
     [[nodiscard]] const HapticScene& touched(const HapticScene& scene) const noexcept {
-        return deforming_ != nullptr ? deforming_->scene() : scene;
+        return own_ != nullptr ? *own_ : scene;
     }
     /// The deforming objects stand still in this tick, for want of a publication.
-    [[nodiscard]] bool held() const noexcept { return deforming_ != nullptr && deforming_->held(); }
+    [[nodiscard]] bool held() const noexcept {
+        return (deforming_ != nullptr && deforming_->held()) || (soft_ != nullptr && softHeld());
+    }
     /// Off the servo, before it gets the world: another thread evaluates vertices ahead of `advance`, which
     /// is about to be called with `time`. For real time only.
     void publishAhead(double time) const {
         if (deforming_ != nullptr)
             deforming_->publishAhead(time);
+        if (soft_ != nullptr)
+            stepSoftApart();
     }
     /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
     /// it.
@@ -107,8 +112,9 @@ class WorldState {
             reaction = {};
     }
     /// Force `force` (N) on an object at `point` (m), both in the workspace. `stiffness`: N/m, of the contact
-    /// that exerts it.
-    void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept {
+    /// that exerts it. `most`: N, what the hand's device can exert.
+    void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
+              double most) noexcept {
         if (!reactions_.empty()) {
             ObjectReaction& reaction = reactions_[static_cast<size_t>(object)];
             reaction.force += force;
@@ -116,15 +122,21 @@ class WorldState {
         }
         if (bodies_ != nullptr)
             pushBody(object, point, force, stiffness);
+        if (soft_ != nullptr) [[unlikely]]
+            pushSoft(object, point, force, stiffness, most);
     }
 
     /// Null where no body moves.
     [[nodiscard]] const std::shared_ptr<body::BodyWorld>& bodies() const noexcept { return bodies_; }
+    /// Null where none is soft (never with WorldBodies::Shown).
+    [[nodiscard]] const std::shared_ptr<SoftObjects>& soft() const noexcept { return soft_; }
     /// The bodies' state after `dt` s under the forces that were pushed, and the textures after the strokes
     /// of this tick. The last phase of a tick before safety.
     void integrate(const HapticSettings& settings, double dt) noexcept {
         if (bodies_ != nullptr)
             integrateBodies(settings, dt);
+        if (soft_ != nullptr) [[unlikely]]
+            integrateSoft(settings, dt);
         if (textures_ != nullptr) [[unlikely]]
             applyStrokes();
     }
@@ -136,7 +148,9 @@ class WorldState {
     void shareTextures(std::shared_ptr<PersistentTextures> textures) noexcept;
     /// WorldBodies::Shown: the next `advance` puts the bodies there.
     void showBodies(const body::BodyPoses& poses);
-    /// From a recording: as after the ticks before. False where the bytes do not fit.
+    /// The state that the rest of a recording depends on: of bodies or of soft bodies (no scene has both).
+    [[nodiscard]] std::vector<std::byte> bodyState() const;
+    /// That of a recording: as after the ticks before. False where the bytes do not fit.
     [[nodiscard]] bool restoreBodies(std::span<const std::byte> bytes) noexcept;
     /// BodyWorld::found of this tick.
     [[nodiscard]] uint32_t foundContacts() const noexcept;
@@ -153,6 +167,12 @@ class WorldState {
 
     void pushBody(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
     void integrateBodies(const HapticSettings& settings, double dt) noexcept;
+    void pushSoft(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
+                  double most) noexcept;
+    void integrateSoft(const HapticSettings& settings, double dt) noexcept;
+    void advanceSoft(bool hold) noexcept;
+    void stepSoftApart() const;
+    [[nodiscard]] bool softHeld() const noexcept;
     void applyStrokes() noexcept;
     void findMovers(const HapticScene& haptic);
     void movePoses(double time) noexcept;
@@ -165,6 +185,8 @@ class WorldState {
     std::vector<Mover> movers_;
     std::vector<ObjectMotion> motions_;
     std::unique_ptr<DeformingObjects> deforming_; // null: none
+    std::shared_ptr<SoftObjects> soft_;           // null: none
+    const HapticScene* own_ = nullptr;            // of either; null: none
     ObjectMotions poses_;
     std::vector<ObjectReaction> reactions_;
     bool collects_ = false, still_ = false;

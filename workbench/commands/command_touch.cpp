@@ -295,14 +295,7 @@ class OfflineTouch {
         return checkpoint;
     }
     /// Before the first step: the state of the bodies; empty where there are none.
-    [[nodiscard]] std::vector<std::byte> bodies() const {
-        std::vector<std::byte> bytes;
-        if (const auto& bodies = touch_.world.bodies()) {
-            bytes.resize(bodies->stateCapacity());
-            bytes.resize(bodies->save(bytes));
-        }
-        return bytes;
-    }
+    [[nodiscard]] std::vector<std::byte> bodies() const { return touch_.world.bodyState(); }
     /// After the last step.
     [[nodiscard]] ObjectMotions objects() const { return touch_.world.poses(); }
     [[nodiscard]] const HapticScene& scene() const { return touch_.world.touched(*model_.haptic); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "haptics/world/soft_objects.h"
 #include "haptics/world/world_state.h"
 #include "renderer/scene_renderer.h"
 
@@ -11,5 +12,8 @@ namespace touchstone {
 void poseAt(double time, const Scene& scene, SceneRenderer& renderer);
 /// The same where bodies move: they are at `poses`, in `world`, which shows them (WorldBodies::Shown).
 void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, SceneRenderer& renderer);
+
+/// The vertices of the soft bodies where they are now. `soft` is that of `haptic`, made of `scene`.
+void poseSoft(SoftObjects& soft, const Scene& scene, const HapticScene& haptic, SceneRenderer& renderer);
 
 } // namespace touchstone

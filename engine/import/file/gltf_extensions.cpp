@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 
 /// Supported, or irrelevant to appearance and touch.
-constexpr std::array<std::string_view, 22> kRead = {
+constexpr std::array<std::string_view, 23> kRead = {
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_draco_mesh_compression",
@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 22> kRead = {
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "TOUCHSTONE_materials_haptic",
+    "TOUCHSTONE_soft_body",
     "MPEG_haptic_material",
     "MPEG_material_haptic",
     "KHR_physics_rigid_bodies",

@@ -151,9 +151,9 @@ TEST(MaterialSchema, HoldsForEveryMaterialOfOurScenes) {
             ++materials;
         }
     }
-    EXPECT_EQ(materials, 40)
+    EXPECT_EQ(materials, 45)
         << "ten swatches, three effects, three that breathe, two doughnuts, a panel, a virtual bump, a "
-           "field torus, 15 with programs, and four whose images are mapped";
+           "field torus, 15 with programs, four whose images are mapped, and five of cloth and jelly";
 }
 
 constexpr const char* kEveryField = R"({"stiffness": 500, "damping": 0, "retardationTime": 0.001,
