@@ -184,6 +184,7 @@ void WorkbenchWindow::moveHand() {
     if (std::exchange(state_.centrePressed, false))
         hand.centre();
     hand.face(view_.workspaceFromView());
+    touch_.otherHands().face(view_.workspaceFromView());
     touch_.sound().update(state_.sound);
     touch_.layStroke(state_.stroke, -view_.camera().forward(), state_.simulatedHand);
 }
@@ -237,6 +238,9 @@ int windowCommand(const WindowOptions& options) {
                     "name a glTF, OBJ, STL or PLY model, a volume, or a recording");
     if (!options.device.empty())
         requireDevice(options.device, "mouse, hand (the simulated one)");
+    for (const std::string& device : options.otherDevices)
+        if (device != "hand")
+            requireDevice(device, "hand (the simulated one)");
     WorkbenchWindow workbench(options);
     workbench.open(
         options.scene.empty() ? defaultScene() : options.scene,

@@ -49,6 +49,7 @@ void WorkbenchWindow::draw() {
         .model = touch_.shown().model,
         .name = hasModel() ? materials_.path().stem().string() : "", // that of the file it was saved as
         .tick = shownTick(),
+        .others = timeline_.looking() ? std::span<const OtherHands::State>() : touch_.otherHands().states(),
         .felt = timeline_.looking() ? nullptr : touch_.sculpt().felt(),
         .tickBelongs = !timeline_.looking() || timeline_.modelIsOpen(),
         .settings = settings,
@@ -175,6 +176,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.canSimulate = touch_.shown().path != nullptr;
     input.strokeNotice = touch_.strokeNotice();
     input.devices = touch_.devices().offers();
+    input.others = touch_.otherHands().states();
     input.deviceStatus = touch_.devices().status();
     input.sound = touch_.sound().status();
     input.sculpt = touch_.sculpt().status();

@@ -117,7 +117,8 @@ DeviceSample DeviceMultiplexer::sample(double time) noexcept {
     if (driven_ != nullptr) {
         sample = driven_->sample(time);
     } else if (path != nullptr) { // starts at its first position, once the hand is there
-        sample.position = path->positionIn(std::max(0.0, time - glideStart_ - kGlideTime), time);
+        sample.position =
+            path->positionIn(std::max(0.0, time - glideStart_ - kGlideTime) + lead_ * path->period(), time);
         sample.age = 0.0;
         sample.valid = true;
     }

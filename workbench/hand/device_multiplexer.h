@@ -26,6 +26,8 @@ class DeviceMultiplexer final : public Device {
     /// Owner thread.
     void simulate(bool simulated) noexcept { simulated_.store(simulated, std::memory_order_relaxed); }
     [[nodiscard]] bool simulated() const noexcept { return simulated_.load(std::memory_order_relaxed); }
+    /// Before the servo starts: the simulated hand is ahead on its path by this share of its period.
+    void lead(double share) noexcept { lead_ = share; }
     void offerPath(std::shared_ptr<const StrokePath> path) { path_.offer(std::move(path)); }
     /// Null: back to the mouse or the simulated hand. A released device receives zero force at once, before
     /// the servo notices.
@@ -83,6 +85,7 @@ class DeviceMultiplexer final : public Device {
     std::shared_ptr<LinkedDevice> device_; // owner thread
     Handover<Held> held_;
     std::atomic<bool> simulated_{false};
+    double lead_ = 0.0;
     Handover<StrokePath> path_;
     std::atomic<double> zoom_{1.0};
     std::atomic<bool> clutch_{false};

@@ -57,6 +57,34 @@ ComparedSettings comparedSettings(const std::string& text) {
     return compared;
 }
 
+/// Each hand has a device of its own.
+void requireApart(const std::vector<std::string>& devices) {
+    if (devices.size() > kMaxHands)
+        throw CLI::ValidationError("--device", "names " + std::to_string(devices.size()) +
+                                                   " hands; one servo drives " + std::to_string(kMaxHands));
+    for (auto device = devices.begin(); device != devices.end(); ++device)
+        if (*device != "hand" && std::find(devices.begin(), device, *device) != device)
+            throw CLI::ValidationError("--device", "names " + *device + " for two hands");
+    const auto real = std::ranges::count_if(
+        devices, [](const std::string& name) { return name != "hand" && name != "mouse"; });
+    if (real > 1 && std::ranges::count(devices, "auto") > 0)
+        throw CLI::ValidationError("--device", "auto cannot be combined with another device: name each");
+}
+
+/// --device of the window, once per hand: the first one's can be changed there.
+void addWindowDevices(CLI::App& app, WindowOptions& options) {
+    static constexpr const char* kFirst = "mouse (the default), hand (the simulated one)";
+    addDevices(app, kFirst, [&options](const std::vector<std::string>& devices) {
+        const std::string& first = devices.front();
+        options.simulatedHand = first == "hand";
+        options.device = first == "mouse" || first == "hand" ? "" : first;
+        options.otherDevices.assign(devices.begin() + 1, devices.end());
+        requireApart(devices);
+        if (std::ranges::count(options.otherDevices, "mouse") > 0)
+            throw CLI::ValidationError("--device", "names the mouse for a further hand; it can be the first");
+    });
+}
+
 } // namespace
 
 void defineDevices(CLI::App& app, DevicesOptions& options) {
@@ -96,10 +124,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
            "--hand", [&options](const std::string& hand) { options.simulatedHand = hand == "simulated"; },
            "Who moves the hand at first [mouse]")
         ->check(CLI::IsMember({"mouse", "simulated"}));
-    addDevice(app, "mouse (the default), hand (the simulated one)", [&options](const std::string& device) {
-        options.simulatedHand = device == "hand";
-        options.device = device == "mouse" || device == "hand" ? "" : device;
-    });
+    addWindowDevices(app, options);
     app.add_flag("--sound", options.sound, "Let the force be heard from the start");
     addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
@@ -126,18 +151,9 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
 
 namespace {
 
-/// Each hand has a device of its own.
 void requireHands(const RunOptions& options) {
     const std::vector<std::string>& devices = options.devices;
-    if (devices.size() > kMaxHands)
-        throw CLI::ValidationError("--device", "names " + std::to_string(devices.size()) +
-                                                   " hands; one servo drives " + std::to_string(kMaxHands));
-    for (auto device = devices.begin(); device != devices.end(); ++device)
-        if (*device != "hand" && std::find(devices.begin(), device, *device) != device)
-            throw CLI::ValidationError("--device", "names " + *device + " for two hands");
-    const auto real = std::ranges::count_if(devices, [](const std::string& name) { return name != "hand"; });
-    if (real > 1 && std::ranges::count(devices, "auto") > 0)
-        throw CLI::ValidationError("--device", "auto cannot be combined with another device: name each");
+    requireApart(devices);
     if (options.recordTicks.size() > devices.size())
         throw CLI::ValidationError("--record-ticks", "names " + std::to_string(options.recordTicks.size()) +
                                                          " files for " + std::to_string(devices.size()) +
@@ -249,7 +265,8 @@ void defineRun(CLI::App& app, RunOptions& options) {
     CLI::Option* stroke =
         addStroke(app, options.stroke, "How it strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
-    addDevices(app, "hand (the simulated one, the default)", options.devices);
+    addDevices(app, "hand (the simulated one, the default)",
+               [&options](const std::vector<std::string>& devices) { options.devices = devices; });
     app.parse_complete_callback([&options, open, plant, stroke] {
         requireHands(options);
         const bool simulates = std::ranges::count(options.devices, "hand") > 0;

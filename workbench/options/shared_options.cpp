@@ -340,18 +340,15 @@ CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene) {
         ->type_name("");
 }
 
-void addDevice(CLI::App& app, const std::string& builtIn,
-               const std::function<void(const std::string&)>& take) {
-    std::string help = kDeviceHelp;
-    help.replace(help.find('%'), 1, builtIn);
-    app.add_option_function<std::string>("--device", take, help)->type_name("DEVICE");
-}
-
-void addDevices(CLI::App& app, const std::string& builtIn, std::vector<std::string>& devices) {
+void addDevices(CLI::App& app, const std::string& builtIn,
+                const std::function<void(const std::vector<std::string>&)>& take) {
     std::string help = kDeviceHelp;
     help.replace(help.find('%'), 1, builtIn);
     help += "; repeat the option for each further hand";
-    app.add_option("--device", devices, help)->type_name("DEVICE")->expected(1)->take_all();
+    app.add_option_function<std::vector<std::string>>("--device", take, help)
+        ->type_name("DEVICE")
+        ->expected(1)
+        ->take_all();
 }
 
 } // namespace touchstone

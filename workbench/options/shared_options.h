@@ -55,10 +55,8 @@ void addAnimation(CLI::App& app, std::optional<std::string>& animation);
 /// --loose.
 void addLoose(CLI::App& app, bool& loose);
 CLI::Option* addScene(CLI::App& app, std::filesystem::path& scene);
-/// --device; `builtIn`: names accepted besides devices.
-void addDevice(CLI::App& app, const std::string& builtIn,
-               const std::function<void(const std::string&)>& take);
-/// The same, once per hand.
-void addDevices(CLI::App& app, const std::string& builtIn, std::vector<std::string>& devices);
+/// --device, once per hand; `builtIn`: names accepted besides devices.
+void addDevices(CLI::App& app, const std::string& builtIn,
+                const std::function<void(const std::vector<std::string>&)>& take);
 
 } // namespace touchstone

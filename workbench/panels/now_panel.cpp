@@ -1,9 +1,12 @@
+#include "workbench/figures/quantity.h"
 #include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
 #include "workbench/readings/force_parts.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
+
+#include <string>
 
 namespace touchstone {
 
@@ -33,6 +36,39 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
         return {"Force fades in", kAmber};
     return tick.contacts > 0 ? TouchLamp{"Touching", kGreen} : TouchLamp{"In the air", kGrey};
 }
+
+namespace {
+
+/// A line for each hand beside the first: its lamp, its name, what it feels and what its device gets.
+void drawOthers(const PanelInput& input, const PanelState& state, Widgets& widgets) {
+    for (size_t i = 0; i < input.others.size(); ++i) {
+        const OtherHands::State& other = input.others[i];
+        const HapticOutput& tick = other.tick.output;
+        const bool absent = has(tick.flags, TickFlag::InputInvalid) || !other.tick.sample.valid;
+        const bool latched = has(tick.flags, TickFlag::SafetyLatched);
+        const bool off = latched || !state.settings.forceEnabled;
+        const ImU32 color = latched             ? kRed
+                            : off               ? kAmber
+                            : absent            ? IM_COL32(120, 126, 133, 255)
+                            : tick.contacts > 0 ? kGreen
+                                                : IM_COL32(120, 126, 133, 255);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float line = ImGui::GetTextLineHeight(), radius = 0.32f * line;
+        ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + radius, at.y + 0.5f * line), radius, color);
+        ImGui::Dummy(ImVec2(2.0f * radius, line));
+        ImGui::SameLine();
+        const std::string where = other.status.empty() ? other.name : other.name + ", " + other.status;
+        if (absent)
+            widgets.wrapped("Hand " + std::to_string(i + 2) + " (" + where + "): none");
+        else
+            widgets.wrapped("Hand " + std::to_string(i + 2) + " (" + where +
+                            "): " + quantity(glm::length(tick.force), "N") + ", " +
+                            quantity(glm::length(tick.command.force()), "N") + " sent");
+        widgets.mark(("hand" + std::to_string(i + 2)).c_str());
+    }
+}
+
+} // namespace
 
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const TouchLamp lamp = touchLamp(input, state);
@@ -66,6 +102,7 @@ void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("sent");
     ImGui::EndGroup();
 
+    drawOthers(input, state, widgets);
     PassivityMode& passivity = state.settings.passivity;
     bool controlled = passivity == PassivityMode::Control;
     if (widgets.check("passivity", "Passivity control", controlled))

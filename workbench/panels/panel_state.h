@@ -9,6 +9,7 @@
 #include "renderer/camera.h"
 #include "workbench/files/saved_file.h"
 #include "workbench/gallery/gallery_entry.h"
+#include "workbench/hand/other_hands.h"
 #include "workbench/panels/timeline_panel.h"
 #include "workbench/panels/widgets.h"
 #include "workbench/readings/chart_quantities.h"
@@ -67,7 +68,8 @@ struct PanelInput {
     bool canSimulate = false;    ///< there is a path for the simulated hand
     std::string strokeNotice;    ///< the stroke is being laid, or why it cannot be; empty: no message
     std::vector<DeviceOffer> devices;
-    std::string deviceStatus; ///< where the chosen device is, or its problem
+    std::span<const OtherHands::State> others; ///< the hands beside the first
+    std::string deviceStatus;                  ///< where the chosen device is, or its problem
     SoundStatus sound;
     SculptStatus sculpt;
     const ServoView* servo = nullptr;

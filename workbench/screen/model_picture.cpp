@@ -53,7 +53,7 @@ ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, Scene
         return setup;
     setup.look.frictionCoefficient =
         frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
-    drawTick(frame.tick, frame.settings, setup.look, overlay_);
+    drawHands(frame, setup.look);
     if (options.grid)
         GroundGrid(frame.model.scene->bounds).draw(frame.model.workspaceFromScene, 1.0f, overlay_);
     slice_.draw(frame.felt != nullptr ? frame.felt : frame.model.haptic, options.slice, 1.0f, overlay_);
@@ -63,10 +63,21 @@ ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, Scene
     return setup;
 }
 
+/// The probe, force and contact of each hand.
+void ModelPicture::drawHands(const Frame& frame, const TickLook& look) {
+    drawTick(frame.tick, frame.settings, look, overlay_);
+    for (const OtherHands::State& other : frame.others) {
+        TickLook own = look;
+        own.frictionCoefficient =
+            frictionCoefficientAt(other.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
+        drawTick(other.tick, frame.settings, own, overlay_);
+    }
+}
+
 View ModelPicture::magnified(const Frame& frame, Setup setup) {
     overlay_.clear();
     setup.look.scale = kMagnifierOverlayScale;
-    drawTick(frame.tick, frame.settings, setup.look, overlay_);
+    drawHands(frame, setup.look);
     View near =
         viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
     near.mode = setup.view.mode;

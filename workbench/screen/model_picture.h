@@ -1,12 +1,14 @@
 #pragma once
 
 #include "renderer/window_target.h"
+#include "workbench/hand/other_hands.h"
 #include "workbench/model/model.h"
 #include "workbench/screen/field_slice.h"
 #include "workbench/screen/overlays.h"
 #include "workbench/screen/picture_controller.h"
 #include "workbench/screen/view_legend.h"
 
+#include <span>
 #include <string>
 
 namespace touchstone {
@@ -21,8 +23,9 @@ class ModelPicture {
         const Model& model; ///< its scene may be null
         std::string name;   ///< of a saved picture, without its ending
         const TickRecord& tick;
-        std::shared_ptr<const HapticScene> felt; ///< with the sculpted fields; null as the model's
-        bool tickBelongs = true;                 ///< to the model; otherwise nothing of it is drawn
+        std::span<const OtherHands::State> others; ///< the hands beside that of `tick`
+        std::shared_ptr<const HapticScene> felt;   ///< with the sculpted fields; null as the model's
+        bool tickBelongs = true;                   ///< to the model; otherwise nothing of it is drawn
         const HapticSettings& settings;
         const OrbitCamera& camera;
         ViewOptions& options;
@@ -63,6 +66,7 @@ class ModelPicture {
     };
     /// Fills overlay_, too.
     [[nodiscard]] Setup setUp(const Frame& frame, double aspect, SceneRenderer& renderer);
+    void drawHands(const Frame& frame, const TickLook& look);
     /// The magnifier's, of the main one's; fills overlay_, too.
     [[nodiscard]] View magnified(const Frame& frame, Setup setup);
     /// Grid's label and legend; in a saved picture the axes, too. `low`: lower left corner, `high`: upper

@@ -12,13 +12,21 @@
 namespace touchstone {
 
 LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std::string&)> tell)
-    : session_({portOf(sound_.hand())}, {.rateHz = options.rateHz, .stageTimes = true}),
+    : others_(options.otherDevices, options.zoom),
+      session_(ports(), {.rateHz = options.rateHz, .stageTimes = true}),
       controller_(session_.servo(), options.recording, "window", std::move(tell)),
       readings_(session_.servo(), controller_.recorder()) {
     session_.subscribe(controller_);
     session_.subscribe(readings_);
     session_.subscribe(sculpt_);
+    session_.subscribe(others_);
     sound_.hear(session_.servo().impact());
+}
+
+std::vector<DevicePort> LiveTouch::ports() {
+    std::vector<DevicePort> ports = others_.ports();
+    ports.insert(ports.begin(), portOf(sound_.hand()));
+    return ports;
 }
 
 LiveTouch::~LiveTouch() {
@@ -35,7 +43,7 @@ void LiveTouch::show(LoadedModel loaded, bool generated) {
     partBuild_.wholeIsFelt();
     wholeEdits_ = shown_.identity.edits;
     offerScene(SceneSwap::Anew, true);
-    hand_.offerPath(shown_.path);
+    offerPath(shown_.path);
     strokes_.show(shown_.model.scene, shown_.model.workspaceFromScene, shown_.path);
     readings_.clearForces();
 }
@@ -88,7 +96,7 @@ void LiveTouch::takePart(const FeltPart& made) {
         return;
     builtAgain_ = true; // the mouse may have pressed on what is gone
     shown_.path = made.path;
-    hand_.offerPath(shown_.path);
+    offerPath(shown_.path);
     strokes_.show(made.strokes, shown_.model.workspaceFromScene, shown_.path);
 }
 
@@ -138,6 +146,7 @@ void LiveTouch::prepare(const HapticSettings& settings) {
 
 void LiveTouch::hold(std::string& choice) {
     hand_.collect();
+    others_.collect();
     if (choice == menu_.chosen())
         return;
     hand_.hold(nullptr); // before another is opened: it may be the same one
@@ -154,7 +163,12 @@ void LiveTouch::layStroke(const StrokeRequest& stroke, const glm::dvec3& facing,
         strokes_.touched({rest.point(felt.proxy), rest.direction(felt.normal)});
     }
     if (auto path = strokes_.update(stroke, facing, simulated))
-        hand_.offerPath(std::move(path));
+        offerPath(std::move(path));
+}
+
+void LiveTouch::offerPath(const std::shared_ptr<const StrokePath>& path) {
+    hand_.offerPath(path);
+    others_.offerPath(path);
 }
 
 int LiveTouch::nodeAt(const Ray& ray) {
@@ -171,6 +185,7 @@ void LiveTouch::offerScene(SceneSwap swap, bool another) {
     if (swap == SceneSwap::Anew) {
         sound_.interrupt();
         hand_.leave();
+        others_.leave();
         builtAgain_ = true;
     }
     (void)session_.touch(shown_.model.haptic, shown_.model.scene, shown_.identity, swap, !another);

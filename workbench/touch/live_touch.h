@@ -8,6 +8,7 @@
 #include "workbench/files/recording_controller.h"
 #include "workbench/hand/device_menu.h"
 #include "workbench/hand/device_multiplexer.h"
+#include "workbench/hand/other_hands.h"
 #include "workbench/hand/picker.h"
 #include "workbench/hand/stroke_controller.h"
 #include "workbench/model/background_build.h"
@@ -99,6 +100,7 @@ class LiveTouch {
     [[nodiscard]] const ServoView& figures() const { return readings_.servo(); }
     [[nodiscard]] const ForceHistory& forces() const { return readings_.forces(); }
     [[nodiscard]] DeviceMultiplexer& hand() { return hand_; }
+    [[nodiscard]] OtherHands& otherHands() { return others_; }
     /// What the contact location display of the device in use shows, m; none without one.
     [[nodiscard]] std::optional<glm::dvec2> padShown() const {
         return tick().pad.limits.reach > 0.0 ? std::optional(tick().pad.location) : std::nullopt;
@@ -113,7 +115,10 @@ class LiveTouch {
   private:
     void takePart(const FeltPart& made);
     void offerScene(SceneSwap swap, bool another);
+    void offerPath(const std::shared_ptr<const StrokePath>& path);
+    [[nodiscard]] std::vector<DevicePort> ports();
 
+    OtherHands others_;
     DeviceMultiplexer hand_;
     DeviceMenu menu_;
     PlaybackDevice again_{hand_};

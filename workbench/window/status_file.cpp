@@ -2,6 +2,7 @@
 
 #include "engine/core/output_file.h"
 #include "engine/core/realtime_guard.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/panels/error_panel.h"
@@ -41,6 +42,22 @@ nlohmann::ordered_json errorJson(const study::LiveErrorFigures& error) {
             {"dropped", error.dropped},
             {"reference_step_ns", error.stepNs},
             {"below_perception", errorPerception(error).below()}};
+}
+
+nlohmann::ordered_json othersJson(const PanelInput& input) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const OtherHands::State& other : input.others) {
+        const HapticOutput& tick = other.tick.output;
+        all.push_back({{"name", other.name},
+                       {"status", other.status},
+                       {"valid", other.tick.sample.valid},
+                       {"contacts", tick.contacts},
+                       {"hip", {tick.hip.x, tick.hip.y, tick.hip.z}},
+                       {"proxy", {tick.proxy.x, tick.proxy.y, tick.proxy.z}},
+                       {"force_n", glm::length(tick.force)},
+                       {"command_n", glm::length(tick.command.force())}});
+    }
+    return all;
 }
 
 nlohmann::ordered_json galleryJson(const PanelInput& input, const PanelState& state) {
@@ -92,6 +109,18 @@ nlohmann::ordered_json chartsJson(const PanelInput& input, const PanelState& sta
             {"height", state.folds.bottomHeight},
             {"saved", input.savedCharts.file.string()},
             {"problem", input.savedCharts.problem}};
+}
+
+/// What plays, by number, and where in it the servo is, s; null: nothing does.
+nlohmann::ordered_json animationJson(const PanelInput& input, const PanelState& state) {
+    const Animation* const animation = input.scene != nullptr ? playedAnimation(*input.scene) : nullptr;
+    if (animation == nullptr)
+        return {};
+    const double time = input.servo->last.time;
+    return {{"playing", animation - input.scene->animations.data()},
+            {"at", loopedTime(*animation, animationTime(state.settings, time))},
+            {"duration", animation->duration},
+            {"speed", state.settings.animationSpeed}};
 }
 
 } // namespace
@@ -165,6 +194,8 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
           {"left_out", input.sound.leftOut}}},
         {"device", state.device},
         {"device_status", input.deviceStatus},
+        {"other_hands", othersJson(input)},
+        {"animation", animationJson(input, state)},
         {"settings", settingsJson(state.settings)},
         {"force_presses", input.forcePresses},
         {"typing", input.typing},

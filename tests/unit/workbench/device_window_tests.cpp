@@ -53,6 +53,53 @@ TEST_F(WindowTest, ADevicePluggedInWhileRunningIsHeldUnpluggedAndLetGo) {
     expectCleanEnd();
 }
 
+/// The mouse presses while a simulated hand strokes: each has its probe, its force and its line in the panel, and
+/// the force key takes both forces.
+TEST_F(WindowTest, TwoHandsTouchAtOnce) {
+    open(TOUCHSTONE_ASSETS "/box.glb", {"--device", "mouse", "--device", "hand"});
+    const Json alone = until("the second hand to touch", [](const Json& s) {
+        const Json& other = s["other_hands"][0];
+        return other["contacts"] > 0 && other["force_n"] > 0.0 && other["command_n"] > 0.0;
+    });
+    EXPECT_EQ(alone["other_hands"][0]["name"], "simulated hand");
+    EXPECT_EQ(alone["tick"]["contacts"], 0) << "the mouse does not touch yet";
+    EXPECT_TRUE(alone["widgets"].contains("hand2"));
+    const VirtualDisplay::Place at = inPicture(0.5, 0.5);
+    display_.xdotool({"mousemove", std::to_string(at.x), std::to_string(at.y), "mousedown", "1"});
+    until("both to touch", [](const Json& s) {
+        return s["tick"]["contacts"] > 0 && s["tick"]["command_n"] > 0.0 &&
+               s["other_hands"][0]["contacts"] > 0 && s["other_hands"][0]["command_n"] > 0.0;
+    });
+    display_.key("space");
+    until("both forces to be off", [](const Json& s) {
+        return s["settings"]["forceEnabled"] == "off" && s["tick"]["command_n"] == 0.0 &&
+               s["other_hands"][0]["command_n"] == 0.0;
+    });
+    display_.xdotool({"mouseup", "1"});
+    expectCleanEnd();
+}
+
+TEST_F(WindowTest, ASecondHandHoldsADeviceOfItsOwn) {
+    MockBus bus;
+    const auto diy = bus.plug({.vendor = 0x1209, .product = 0x0001, .name = "DIY"});
+    open(TOUCHSTONE_ASSETS "/box.glb", {"--device", "mouse", "--device", diy->node()});
+    uint32_t sequence = 0;
+    const Json held = until("the second hand to be where its device is", [&](const Json& s) {
+        diy->say(place(++sequence));
+        const auto hip = s["other_hands"][0]["hip"].get<std::vector<double>>();
+        return std::hypot(hip[0] - 0.02, hip[1] - 0.09, hip[2]) < 1e-6;
+    });
+    EXPECT_EQ(held["other_hands"][0]["name"], "DIY device");
+    EXPECT_EQ(held["other_hands"][0]["status"], "at " + diy->node());
+    EXPECT_EQ(held["device"], "") << "the mouse is the first hand";
+    diy->unplug();
+    until("the window to say that it was unplugged", [](const Json& s) {
+        return s["other_hands"][0]["status"].get<std::string>().find("plugged") != std::string::npos &&
+               !s["other_hands"][0]["valid"];
+    });
+    expectCleanEnd();
+}
+
 } // namespace
 } // namespace touchstone::test
 
