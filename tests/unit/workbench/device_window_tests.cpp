@@ -53,8 +53,8 @@ TEST_F(WindowTest, ADevicePluggedInWhileRunningIsHeldUnpluggedAndLetGo) {
     expectCleanEnd();
 }
 
-/// The mouse presses while a simulated hand strokes: each has its probe, its force and its line in the panel, and
-/// the force key takes both forces.
+/// The mouse presses while a simulated hand strokes: each has its probe, its force and its line in the panel,
+/// and the force key takes both forces.
 TEST_F(WindowTest, TwoHandsTouchAtOnce) {
     open(TOUCHSTONE_ASSETS "/box.glb", {"--device", "mouse", "--device", "hand"});
     const Json alone = until("the second hand to touch", [](const Json& s) {
