@@ -187,20 +187,56 @@ std::optional<SculptEntry> LiveSculptor::next() {
     return entry;
 }
 
-/// As many entries as kPublish allows, then a publication.
+/// As many entries as kPublish allows, or one up to its shape, then a publication; once more with distances
+/// where a shape was made, after what the hand makes beside it meanwhile.
 void LiveSculptor::applyWaiting() {
     const double begin = secondsNow();
     const size_t before = journal_.size();
     while (journal_.size() == before || secondsNow() - begin < kPublish) {
-        const std::optional<SculptEntry> entry = next();
+        std::optional<SculptEntry> entry = next();
         if (!entry)
             break;
+        const bool shapes = sculptor_ && restoring_ > kWhole && sculptor_->canShape(*entry);
+        if (shapes)
+            entry->kind = SculptEntryKind::Shape;
         apply(*entry);
+        if (shapes)
+            break;
     }
     if (journal_.size() == before || !sculptor_)
         return;
+    publish();
+    std::optional<int32_t> object = sculptor_->owesDistances();
+    for (int shapes = 1; object; object = sculptor_->owesDistances()) {
+        SculptEntry entry{.kind = SculptEntryKind::Restore, .object = *object};
+        if (const auto joined = shapes < kMostShapes ? nextBeside() : std::nullopt) {
+            entry = *joined;
+            entry.kind = SculptEntryKind::Shape;
+            ++shapes;
+        }
+        const size_t made = journal_.size();
+        apply(entry);
+        if (journal_.size() > made)
+            publish();
+        else if (entry.kind == SculptEntryKind::Restore)
+            break;
+    }
+}
+
+void LiveSculptor::publish() {
     sculptor_->settle();
     servo_.offerEdited(published(false));
+}
+
+/// The next entry, where it leaves its distances to the same restoration as the last shape.
+std::optional<SculptEntry> LiveSculptor::nextBeside() {
+    const std::scoped_lock lock(mutex_);
+    gather();
+    if (waiting_.empty() || !sculptor_->joins(waiting_.front()))
+        return std::nullopt;
+    const SculptEntry entry = waiting_.front();
+    waiting_.pop_front();
+    return entry;
 }
 
 void LiveSculptor::apply(const SculptEntry& entry) {
@@ -211,13 +247,15 @@ void LiveSculptor::apply(const SculptEntry& entry) {
     std::string problem;
     try {
         report = sculptor_->apply(entry);
-        if (entry.kind != SculptEntryKind::Dab ||
-            report.dabs > 0) // else the object is hidden: it may come back
+        const bool made = entry.kind == SculptEntryKind::Dab || entry.kind == SculptEntryKind::Shape;
+        if (!made || report.dabs > 0) // else the object is hidden: it may come back
             journal_.push_back(entry);
     } catch (const std::exception& error) {
         problem = error.what();
     }
     const double seconds = secondsNow() - begin;
+    if (entry.kind == SculptEntryKind::Dab || entry.kind == SculptEntryKind::Restore)
+        restoring_ = seconds;
     const std::scoped_lock lock(mutex_);
     figures_.dabs += report.dabs;
     figures_.removed += report.removed;

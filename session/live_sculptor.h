@@ -52,6 +52,9 @@ class LiveSculptor {
     static constexpr double kPublish = 0.004; ///< s of dabs in one publication, and one dab more
     /// Dabs that wait: more are thinned out, to a longer distance along the way.
     static constexpr size_t kMostWaiting = 2;
+    /// A dab that takes longer is published twice: its shape, and then its distances (SculptEntryKind).
+    static constexpr double kWhole = 0.002; // s
+    static constexpr int kMostShapes = 3;   ///< before their distances are restored
 
     explicit LiveSculptor(ServoLoop& servo) : servo_(servo) {}
     ~LiveSculptor();
@@ -86,7 +89,9 @@ class LiveSculptor {
     void work();
     void gather();
     [[nodiscard]] std::optional<SculptEntry> next();
+    [[nodiscard]] std::optional<SculptEntry> nextBeside();
     void applyWaiting();
+    void publish();
     void apply(const SculptEntry& entry);
     [[nodiscard]] ReshapedScene published(bool whole);
     [[nodiscard]] std::unique_lock<std::mutex> stopApplying();
@@ -113,6 +118,7 @@ class LiveSculptor {
     size_t sent_ = 0;                  // entries of it that were published
     uint64_t memory_ = 0;
     double memoryAt_ = -1.0; // s
+    double restoring_ = 0.0; // s, of the last dab or restoration
 };
 
 } // namespace touchstone

@@ -93,7 +93,7 @@ void get(ByteReader& bytes, RecordedSculpt& sculpt) {
         throw Error("", "", "holds another number of edits than it says", "");
     sculpt.entries.resize(count);
     for (SculptEntry& entry : sculpt.entries) {
-        getEnumeration(bytes, entry.kind, SculptEntryKind::Redo, "edit");
+        getEnumeration(bytes, entry.kind, kLastSculptEntryKind, "edit");
         getEnumeration(bytes, entry.tool, kLastSculptTool, "tool");
         bytes.get(entry.object);
         bytes.get(entry.stamp);

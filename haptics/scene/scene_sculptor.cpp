@@ -6,6 +6,7 @@
 #include "haptics/shape/field/cut_field.h"
 #include "haptics/shape/field/field_colors.h"
 #include "haptics/shape/field/mesh_to_field.h"
+#include "haptics/shape/field/sculpt/tool_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,17 @@ namespace {
 
 const FieldShape* fieldOf(const HapticObject& object) {
     return wholeField(object.shape.get());
+}
+
+/// Without a stamp.
+Dab dabOf(const SculptEntry& entry) {
+    return {.tool = entry.tool,
+            .centre = entry.centre,
+            .motion = entry.motion,
+            .radius = entry.radius,
+            .strength = entry.strength,
+            .falloff = entry.falloff,
+            .color = entry.color};
 }
 
 } // namespace
@@ -155,6 +167,13 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
         return report;
     }
     const size_t object = checkedObject(entry.object);
+    if (entry.kind == SculptEntryKind::Restore) {
+        if (const auto found = sculptors_.find(object); found != sculptors_.end()) {
+            report.bricks = found->second.restore().bricks;
+            unsettled_.insert(object);
+        }
+        return report;
+    }
     if (scene_->objects[object]->empty())
         return report; // it is hidden
     if (fieldOf(*scene_->objects[object]) == nullptr)
@@ -165,13 +184,7 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
         begins_ = strokeIsEmpty_ = true;
         return report;
     }
-    Dab dab{.tool = entry.tool,
-            .centre = entry.centre,
-            .motion = entry.motion,
-            .radius = entry.radius,
-            .strength = entry.strength,
-            .falloff = entry.falloff,
-            .color = entry.color};
+    Dab dab = dabOf(entry);
     if (entry.tool == SculptTool::Stamp || entry.tool == SculptTool::Imprint)
         dab.stamp = stampOf(checkedObject(entry.stamp));
     sculptor.check(dab);
@@ -179,7 +192,7 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
         sculptor.beginStroke();
         undone_.clear();
     }
-    const DabReport one = sculptor.apply(dab);
+    const DabReport one = entry.kind == SculptEntryKind::Shape ? sculptor.shape(dab) : sculptor.apply(dab);
     const double scale = sceneFromObject(object).scale;
     report = {.removed = one.removed * scale * scale * scale, .dabs = 1, .bricks = one.bricks};
     if (one.bricks == 0)
@@ -189,6 +202,27 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
         done_.push_back({object, 0.0});
     done_.back().removed += report.removed;
     return report;
+}
+
+bool SceneSculptor::canShape(const SculptEntry& entry) const {
+    if (entry.kind != SculptEntryKind::Dab || !isWholeBall(dabOf(entry)))
+        return false;
+    const auto object = static_cast<size_t>(entry.object); // beyond all others where it is negative
+    return object < scene_->objects.size() && fieldOf(*scene_->objects[object]) != nullptr;
+}
+
+bool SceneSculptor::joins(const SculptEntry& entry) const {
+    if (begins_ || !canShape(entry))
+        return false;
+    const auto found = sculptors_.find(static_cast<size_t>(entry.object));
+    return found != sculptors_.end() && found->second.joins(dabOf(entry));
+}
+
+std::optional<int32_t> SceneSculptor::owesDistances() const {
+    for (const auto& [object, sculptor] : sculptors_)
+        if (sculptor.owesDistances())
+            return static_cast<int32_t>(object);
+    return std::nullopt;
 }
 
 void SceneSculptor::settle() {

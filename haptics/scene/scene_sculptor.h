@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -41,6 +42,12 @@ class SceneSculptor {
     /// One entry of a live journal; `scene` stays as it was until `settle`. Dabs between two Begins are one
     /// step of undo. Throws Error, before anything is changed, as the other one.
     SculptReport apply(const SculptEntry& entry);
+    /// A Dab that may be applied as Shape and Restore.
+    [[nodiscard]] bool canShape(const SculptEntry& entry) const;
+    /// As a Shape its distances are restored with those of the last ones.
+    [[nodiscard]] bool joins(const SculptEntry& entry) const;
+    /// The object whose distances a Restore has to restore; empty where there is none.
+    [[nodiscard]] std::optional<int32_t> owesDistances() const;
     /// The entries that steps came to since the last call: applied to another SceneSculptor of the scene they
     /// give the same fields.
     [[nodiscard]] std::vector<SculptEntry> takeEntries() { return std::exchange(entries_, {}); }

@@ -48,16 +48,26 @@ void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone
             }
 }
 
-/// The nodes low..high of the window.
-void copyNodes(FieldWindow& window, const FieldGrid& grid, const glm::ivec3& low, const glm::ivec3& high) {
-    const auto count = static_cast<size_t>(high.x - low.x + 1);
-    for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y) {
-            const size_t row = window.index({low.x, y, z});
-            grid.copyNodes(window.first + glm::ivec3(low.x, y, z), {high.x - low.x + 1, 1, 1},
-                           std::span(window.before).subspan(row, count));
-            std::copy_n(&window.before[row], count, &window.value[row]);
-        }
+/// Calls visit(first node, index, count) for each row of the nodes that have values: runs of active bricks
+/// along the first axis, with two nodes around.
+template <class Visit>
+void eachFilledRow(const FieldWindow& window, const Visit& visit) {
+    for (size_t i = 0; i < window.active.size();) {
+        const glm::ivec3 from = window.active[i];
+        glm::ivec3 to = from;
+        while (++i < window.active.size() && window.active[i] == to + glm::ivec3(1, 0, 0))
+            to = window.active[i];
+        const glm::ivec3 low = glm::max(kBrickCells * from - 2, glm::ivec3(0));
+        const glm::ivec3 high = glm::min(kBrickCells * (to + 1) + 2, window.size - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                visit(glm::ivec3(low.x, y, z), window.index({low.x, y, z}), high.x - low.x + 1);
+    }
+}
+
+/// `count` values from a node on.
+std::span<float> rowOf(std::vector<float>& values, size_t index, int count) {
+    return std::span(values).subspan(index, static_cast<size_t>(count));
 }
 
 } // namespace
@@ -107,16 +117,17 @@ SculptZone fillWindow(FieldWindow& window, const FieldGrid& grid, const glm::dve
     const SculptZone zone{grid.gridFromObject(centre) - glm::dvec3(window.first),
                           radius / grid.layout().voxel};
     activate(window, grid, zone);
-    // Runs of active bricks along the first axis, with two nodes around.
-    for (size_t i = 0; i < window.active.size();) {
-        const glm::ivec3 from = window.active[i];
-        glm::ivec3 to = from;
-        while (++i < window.active.size() && window.active[i] == to + glm::ivec3(1, 0, 0))
-            to = window.active[i];
-        copyNodes(window, grid, glm::max(kBrickCells * from - 2, glm::ivec3(0)),
-                  glm::min(kBrickCells * (to + 1) + 2, window.size - 1));
-    }
+    eachFilledRow(window, [&](const glm::ivec3& first, size_t index, int count) {
+        grid.copyNodes(window.first + first, {count, 1, 1}, rowOf(window.before, index, count));
+        std::ranges::copy(rowOf(window.before, index, count), &window.value[index]);
+    });
     return zone;
+}
+
+void fillValues(FieldWindow& window, const FieldGrid& now) {
+    eachFilledRow(window, [&](const glm::ivec3& first, size_t index, int count) {
+        now.copyNodes(window.first + first, {count, 1, 1}, rowOf(window.value, index, count));
+    });
 }
 
 std::vector<NodeBox> changedNodes(const FieldWindow& window) {

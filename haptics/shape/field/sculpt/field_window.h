@@ -100,6 +100,9 @@ void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& c
 SculptZone fillWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
                       double margin);
 
+/// Gives the window that fillWindow made the values of a grid as it is now; `before` stays.
+void fillValues(FieldWindow& window, const FieldGrid& now);
+
 inline constexpr uint64_t kMostWindowNodes = uint64_t{1} << 27;
 
 /// Inclusive; empty where low > high.

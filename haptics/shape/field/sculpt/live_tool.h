@@ -28,7 +28,10 @@ struct LiveTool {
     bool operator==(const LiveTool&) const = default;
 };
 
-enum class SculptEntryKind : uint8_t { Begin, Dab, Undo, Redo };
+/// Shape and Restore are the halves of a Dab (Sculptor): what the hand made is felt before distances are
+/// restored.
+enum class SculptEntryKind : uint8_t { Begin, Dab, Undo, Redo, Shape, Restore };
+inline constexpr SculptEntryKind kLastSculptEntryKind = SculptEntryKind::Restore;
 
 /// An entry of the journal: numbers alone, so that it goes through a ring and into a recording.
 struct SculptEntry {
@@ -38,7 +41,7 @@ struct SculptEntry {
     uint64_t tick = 0;               ///< in which the hand made it; 0: no hand did
     uint32_t root =
         0; ///< on the servo's way alone: the scene (TickRecord::root) in which it was made; 0: any
-    glm::dvec3 centre{0.0}, motion{0.0}; ///< of a Dab, with the rest: the object's frame and unit
+    glm::dvec3 centre{0.0}, motion{0.0}; ///< of a Dab or Shape, with the rest: the object's frame and unit
     double radius = 0.0, strength = 1.0, falloff = 0.0;
     glm::vec3 color{1.0f}; ///< of Paint
     bool operator==(const SculptEntry&) const = default;

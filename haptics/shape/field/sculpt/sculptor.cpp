@@ -1,5 +1,6 @@
 #include "haptics/shape/field/sculpt/sculptor.h"
 
+#include "engine/core/error.h"
 #include "haptics/shape/field/sculpt/tool_values.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ std::shared_ptr<const FieldGrid> Sculptor::grid() {
 }
 
 void Sculptor::beginStroke() {
+    restore(); // belongs to the stroke before
     steps_.resize(done_);
     if (done_ == 0 || !steps_.back().empty()) {
         steps_.emplace_back();
@@ -93,6 +95,7 @@ void Sculptor::check(const Dab& dab) const {
 
 DabReport Sculptor::apply(const Dab& dab) {
     check(dab);
+    restore();
     if (done_ == 0 || done_ < steps_.size())
         beginStroke();
     if (dab.tool == SculptTool::Paint)
@@ -111,18 +114,90 @@ DabReport Sculptor::apply(const Dab& dab) {
 }
 
 DabReport Sculptor::applyOnce(const Dab& dab) {
-    const double voxel = base_->layout().voxel, radius = changedRadius(*base_, dab);
+    const double radius = changedRadius(*base_, dab);
     if (ballMisses(*base_, dab.centre, radius))
         return {};
     const SculptZone zone = fillWindow(window_, *grid(), dab.centre, radius, margin());
     const ExactSide exact = applyTool(window_, *base_, dab, zone);
-    const std::vector<NodeBox> changed =
-        restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact);
+    return committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact));
+}
+
+Sculptor::Shaped Sculptor::joined(const Dab& dab) const {
+    Shaped all{.before = grid_, .centre = dab.centre, .radius = changedRadius(*base_, dab), .tool = dab.tool};
+    if (!shaped_)
+        return all;
+    const glm::dvec3 way = all.centre - shaped_->centre;
+    const double apart = glm::length(way);
+    all.before = shaped_->before;
+    if (apart + all.radius <= shaped_->radius) {
+        all.centre = shaped_->centre;
+        all.radius = shaped_->radius;
+    } else if (apart + shaped_->radius > all.radius) { // else the new ball contains the old one
+        const double radius = 0.5 * (apart + all.radius + shaped_->radius);
+        all.centre = shaped_->centre + way * ((radius - shaped_->radius) / apart);
+        all.radius = radius;
+    }
+    return all;
+}
+
+bool Sculptor::joins(const Dab& dab) const {
+    constexpr double kLargest =
+        1.5; // of the dab's own zone: one restoration is not much larger than that of a dab
+    if (!isWholeBall(dab) || !shaped_ || shaped_->tool != dab.tool)
+        return false;
+    const Shaped all = joined(dab);
+    if (all.radius > kLargest * changedRadius(*base_, dab))
+        return false;
+    FieldWindow window;
+    try {
+        placeWindow(window, *base_, all.centre, all.radius, margin());
+    } catch (const Error&) {
+        return false; // too many nodes
+    }
+    return true;
+}
+
+DabReport Sculptor::shape(const Dab& dab) {
+    if (!isWholeBall(dab))
+        return apply(dab);
+    check(dab);
+    if (!joins(dab))
+        restore();
+    if (done_ == 0 || done_ < steps_.size())
+        beginStroke();
+    const double radius = changedRadius(*base_, dab);
+    if (ballMisses(*base_, dab.centre, radius))
+        return {};
+    const std::shared_ptr<const FieldGrid> now = grid();
+    Shaped shaped = joined(dab);
+    const SculptZone zone = fillWindow(window_, *now, dab.centre, radius, margin());
+    shaped.exact = applyTool(window_, *base_, dab, zone);
+    const std::vector<NodeBox> changed = changedNodes(window_);
+    if (!changed.empty())
+        shaped_ = std::move(shaped);
+    return committed(zone, changed);
+}
+
+DabReport Sculptor::restore() {
+    if (!shaped_)
+        return {};
+    const Shaped shaped = *std::exchange(shaped_, std::nullopt);
+    const std::shared_ptr<const FieldGrid> now = grid();
+    const SculptZone zone = fillWindow(window_, *shaped.before, shaped.centre, shaped.radius, margin());
+    fillValues(window_, *now);
+    DabReport report =
+        committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact));
+    report.removed = 0.0; // `shape` has told it
+    return report;
+}
+
+DabReport Sculptor::committed(const SculptZone& zone, const std::vector<NodeBox>& changed) {
     DabReport report;
     if (changed.empty())
         return report;
     report.removed = removedVolume(window_, zone);
     report.bricks = commit(changed);
+    const double voxel = base_->layout().voxel;
     const auto place = [&](const glm::ivec3& node) {
         return base_->layout().origin + voxel * glm::dvec3(window_.first + node);
     };
@@ -213,6 +288,7 @@ void Sculptor::goBackOrOn(const Step& step, bool back) {
 }
 
 bool Sculptor::undo() {
+    restore(); // belongs to the stroke
     while (done_ > 0 && steps_[done_ - 1].empty())
         --done_;
     if (done_ == 0)
@@ -222,6 +298,7 @@ bool Sculptor::undo() {
 }
 
 bool Sculptor::redo() {
+    restore();
     while (done_ < steps_.size() && steps_[done_].empty())
         ++done_;
     if (done_ == steps_.size())

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -41,6 +42,17 @@ class Sculptor {
     /// it folds nothing. Throws Error (check) before anything is changed.
     DabReport apply(const Dab& dab);
 
+    /// The first half of `apply` for a whole ball that is taken out or joined (isWholeBall): the surface is
+    /// where it will be and the values of one side are distances, those of the other are bounds, never longer
+    /// than the distance. Several of them, near each other, may be made before `restore`.
+    DabReport shape(const Dab& dab);
+    /// True where the next `shape` leaves the distances of the last ones to the same `restore`.
+    [[nodiscard]] bool joins(const Dab& dab) const;
+    /// The second half: distances everywhere. Every other change does so before its own.
+    DabReport restore();
+    /// `shape` was called since `restore`.
+    [[nodiscard]] bool owesDistances() const { return shaped_.has_value(); }
+
     /// Throws Error where `apply` would: checkDab, and more nodes at once than kMostWindowNodes.
     void check(const Dab& dab) const;
 
@@ -70,9 +82,20 @@ class Sculptor {
         [[nodiscard]] bool empty() const { return values.empty() && colors.empty(); }
     };
 
+    /// What `restore` has to do.
+    struct Shaped {
+        std::shared_ptr<const FieldGrid> before; ///< a distance
+        glm::dvec3 centre{0.0}; ///< of a ball around all nodes that were changed by themselves
+        double radius = 0.0;    ///< object units
+        SculptTool tool = SculptTool::Carve;
+        ExactSide exact = ExactSide::None;
+    };
+    [[nodiscard]] Shaped joined(const Dab& dab) const;
+
     [[nodiscard]] std::vector<Dab> partsOf(const Dab& dab) const;
     [[nodiscard]] double margin() const; ///< voxels around what a dab changes by itself
     DabReport applyOnce(const Dab& dab);
+    DabReport committed(const SculptZone& zone, const std::vector<NodeBox>& changed);
     DabReport paint(const Dab& dab);
     bool paintBrick(const glm::ivec3& brick, const Dab& dab);
     void recolor(uint32_t number, const ColorBrickPtr& brick);
@@ -89,6 +112,7 @@ class Sculptor {
     std::set<uint32_t> changed_;                   ///< since takeChangedBricks
     std::vector<Step> steps_;                      ///< strokes; the first `done_` are applied
     size_t done_ = 0;
+    std::optional<Shaped> shaped_;
     FieldWindow window_;
     DistanceRestorer restorer_;
 };

@@ -100,9 +100,9 @@ double borderDistance(const FieldGrid& grid, const glm::ivec3& node) {
 
 /// The side where a whole ball's distance is exact, and its values outside of the zone.
 ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone) {
-    const bool carves = dab.tool == SculptTool::Carve;
-    if ((!carves && dab.tool != SculptTool::Add) || dab.strength != 1.0 || dab.falloff != 0.0)
+    if (!isWholeBall(dab))
         return ExactSide::None;
+    const bool carves = dab.tool == SculptTool::Carve;
     const auto voxel = static_cast<float>(window.voxel), radius = static_cast<float>(dab.radius);
     const glm::vec3 centre(zone.centre);
     window.eachActiveRow([&](const glm::ivec3& first, size_t index, int count) {
@@ -119,6 +119,11 @@ ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone)
 }
 
 } // namespace
+
+bool isWholeBall(const Dab& dab) {
+    return (dab.tool == SculptTool::Carve || dab.tool == SculptTool::Add) && dab.strength == 1.0 &&
+           dab.falloff == 0.0;
+}
 
 double changedRadius(const FieldGrid& grid, const Dab& dab) {
     const double room = 2.0 * grid.layout().voxel;

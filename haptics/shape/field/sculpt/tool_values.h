@@ -7,6 +7,9 @@
 
 namespace touchstone {
 
+/// The dab takes out or joins a ball: one side of the surface has a closed form (ExactSide).
+[[nodiscard]] bool isWholeBall(const Dab& dab);
+
 /// Radius of the ball in which a dab changes nodes by itself, object units: with two voxels around the tool.
 [[nodiscard]] double changedRadius(const FieldGrid& grid, const Dab& dab);
 
