@@ -1,5 +1,6 @@
 #include "server/access.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
@@ -32,6 +33,10 @@ fs::path runtimeFolder() {
         throw std::runtime_error(folder.string() +
                                  ": is not a folder of ours with mode 0700\n  remedy: remove it");
     return folder;
+}
+
+bool isLoopback(std::string_view address) {
+    return address.starts_with("127.");
 }
 
 bool isBelow(const fs::path& root, const fs::path& file) {
@@ -72,14 +77,56 @@ bool sameToken(std::string_view given, std::string_view token) noexcept {
     return differing == 0;
 }
 
-bool isOwnHost(std::string_view host, int port) {
-    const std::string end = ":" + std::to_string(port);
-    return host == "127.0.0.1" + end || host == "localhost" + end;
+OwnNames ownNames(const ServeOptions& options) {
+    OwnNames own{options.names, options.port, !options.certificate.empty()};
+    if (!isAnyAddress(options.address))
+        own.hosts.push_back(options.address);
+    if (isAnyAddress(options.address) || isLoopback(options.address)) {
+        own.hosts.emplace_back("127.0.0.1");
+        own.hosts.emplace_back("localhost");
+    }
+    return own;
 }
 
-bool isOwnOrigin(std::string_view origin, int port) {
-    constexpr std::string_view kScheme = "http://";
-    return origin.empty() || (origin.starts_with(kScheme) && isOwnHost(origin.substr(kScheme.size()), port));
+std::string urlOf(const OwnNames& names) {
+    return (names.tls ? "https://" : "http://") + names.hosts.front() + ":" + std::to_string(names.port);
+}
+
+bool isAnyAddress(std::string_view address) {
+    return address == "0.0.0.0";
+}
+
+std::string listenProblem(const ServeOptions& options) {
+    in_addr parsed{};
+    if (inet_pton(AF_INET, options.address.c_str(), &parsed) != 1)
+        return "--listen " + options.address + ": is no IPv4 address";
+    if (options.certificate.empty() != options.key.empty())
+        return "--certificate and --key need each other";
+    if (options.certificate.empty() && !isLoopback(options.address) && options.port != 0) {
+        const std::string port = std::to_string(options.port);
+        return "--listen " + options.address +
+               ": is not on loopback, and without TLS everybody on the way could drive the device\n"
+               "  remedy: --certificate FILE --key FILE; or stay on 127.0.0.1, and forward the port there "
+               "(ssh "
+               "-L " +
+               port + ":127.0.0.1:" + port + " THIS_MACHINE) or put a TLS proxy before it (stunnel)";
+    }
+    struct stat status {};
+    if (!options.key.empty() && (stat(options.key.c_str(), &status) != 0 || (status.st_mode & 07) != 0))
+        return "--key " + options.key + ": everybody may read it\n  remedy: chmod 600 " + options.key;
+    return {};
+}
+
+bool isOwnHost(std::string_view host, const OwnNames& names) {
+    const bool usual = names.port == (names.tls ? 443 : 80); // browsers leave it out
+    const std::string end = ":" + std::to_string(names.port);
+    return std::ranges::any_of(
+        names.hosts, [&](const std::string& own) { return host == own + end || (usual && host == own); });
+}
+
+bool isOwnOrigin(std::string_view origin, const OwnNames& names) {
+    const std::string_view scheme = names.tls ? "https://" : "http://";
+    return origin.empty() || (origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), names));
 }
 
 std::string fileBelow(const std::string& root, const std::string& name) {

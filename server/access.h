@@ -1,8 +1,11 @@
 #pragma once
-// Who may connect: the token, and where a request says that it comes from.
+// Who may connect: the token, where a request says that it comes from, and where the server may listen.
+
+#include "server/serve_options.h"
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone::server {
 
@@ -16,10 +19,26 @@ namespace touchstone::server {
 /// In a time that does not depend on where they differ.
 [[nodiscard]] bool sameToken(std::string_view given, std::string_view token) noexcept;
 
-/// The Host header names this machine's loopback and our port: no name that somebody's DNS resolves to it.
-[[nodiscard]] bool isOwnHost(std::string_view host, int port);
+/// How clients call this server.
+struct OwnNames {
+    std::vector<std::string> hosts; ///< names and addresses, without the port
+    int port = 0;
+    bool tls = false;
+};
+[[nodiscard]] OwnNames ownNames(const ServeOptions& options);
+/// Of the page.
+[[nodiscard]] std::string urlOf(const OwnNames& names);
+
+/// Why the server must not listen as it is asked to: off loopback without TLS, TLS without a key, a key that
+/// everybody may read. Empty: it may.
+[[nodiscard]] std::string listenProblem(const ServeOptions& options);
+/// All of the machine's.
+[[nodiscard]] bool isAnyAddress(std::string_view address);
+
+/// The Host header is a name of ours with our port: no other name that somebody's DNS resolves to us.
+[[nodiscard]] bool isOwnHost(std::string_view host, const OwnNames& names);
 /// The Origin header, where a browser sends one, is our own page.
-[[nodiscard]] bool isOwnOrigin(std::string_view origin, int port);
+[[nodiscard]] bool isOwnOrigin(std::string_view origin, const OwnNames& names);
 
 /// `name` below `root`, links resolved; empty where it is outside or does not exist.
 [[nodiscard]] std::string fileBelow(const std::string& root, const std::string& name);

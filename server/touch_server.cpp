@@ -68,8 +68,8 @@ void append(std::string& bytes, const void* data, size_t size) {
 } // namespace
 
 TouchServer::TouchServer(const ServeOptions& options, std::string token)
-    : options_(options), token_(std::move(token)), changedMaterials_(Json::object()),
-      changedSettings_(Json::object()), ticks_(kTickBlock) {
+    : options_(options), token_(std::move(token)), plan_(1.0 / options.rate),
+      changedMaterials_(Json::object()), changedSettings_(Json::object()), ticks_(kTickBlock) {
     ts_session_options session = TS_STRUCT(ts_session_options);
     session.device = options_.device.c_str();
     session.rate = options_.rate;
@@ -447,6 +447,8 @@ void TouchServer::pump() {
         return;
     ts_state state = TS_STRUCT(ts_state);
     ts::check(ts_session_pump(session_.get(), &state));
+    if (state.touching != 0)
+        read_ = {state.started, state.time, 1e-9 * static_cast<double>(state.wake_ns + state.step_ns)};
     sendTicks();
     const auto now = std::chrono::steady_clock::now();
     for (Client& client : clients_)
@@ -458,11 +460,13 @@ void TouchServer::pump() {
     sendState(state);
 }
 
-double TouchServer::pumpPeriod() const {
+double TouchServer::nextPump() {
     double fastest = kUsualStates;
     for (const Client& client : clients_)
         fastest = std::max(fastest, client.stateRate);
-    return 1.0 / fastest;
+    const double now = monotonicNow();
+    // What a client renders changes with the control loop's ticks.
+    return touching_ && !rendered_ ? plan_.after(now, read_, 1.0 / fastest) : plan_.idle(now, 1.0 / fastest);
 }
 
 /// To each client as often as it has asked for.
@@ -489,12 +493,13 @@ void TouchServer::sendState(const ts_state& state) {
                {"driver", driver_ != 0 ? Json(driver_) : Json()}};
     if (!moved_.empty())
         event["moved"] = movedPoses();
+    const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace);
     for (Client& client : clients_) {
         constexpr double kSlack = 0.1; // of a period: timers are late by some of one
         if (!client.known || client.sinceState * client.stateRate < 1.0 - kSlack)
             continue;
         client.sinceState = 0.0;
-        tell(event, client.number);
+        outgoing_.push_back({client.number, false, text});
     }
 }
 

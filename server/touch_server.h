@@ -2,6 +2,8 @@
 // What clients may ask for, whatever carries their messages. docs/server.md is the protocol; change both
 // together.
 
+#include "server/pump_timer.h"
+#include "server/serve_options.h"
 #include "touchstone/touchstone.hpp"
 
 #include <nlohmann/json.hpp>
@@ -21,18 +23,6 @@ namespace touchstone::server {
 
 inline constexpr int kProtocol = 1;
 
-struct ServeOptions {
-    int port = 0;           ///< on 127.0.0.1; 0 with a socket: none
-    std::string socket;     ///< path of a Unix socket; empty: none
-    std::string root = "."; ///< scenes that clients name lie below it
-    std::string scene;      ///< opened at first; empty: none
-    std::string device = "stroke";
-    bool allowWrite = false;
-    double rate = 1000.0;
-    double control = 0.0;   ///< Hz, of the control loop apart from contact; 0: none
-    double goalPower = 0.0; ///< W that a client's contact may give
-};
-
 /// A message to a client, or to all.
 struct Outgoing {
     uint64_t client = 0; ///< 0: all that are authenticated
@@ -51,9 +41,10 @@ class TouchServer {
     void leave(uint64_t client);
     /// A whole text message. False: the connection is to be closed.
     [[nodiscard]] bool receive(uint64_t client, std::string_view text);
-    /// Reads the servo and gives everybody the state, as often as it has asked for. Once in `pumpPeriod`.
+    /// Reads the servo and gives everybody the state, as often as it has asked for.
     void pump();
-    [[nodiscard]] double pumpPeriod() const; ///< s
+    /// When to do so again: s on CLOCK_MONOTONIC.
+    [[nodiscard]] double nextPump();
     /// The person at the device: the driver is dismissed and the force taken away; again: given back.
     void takeBack();
     [[nodiscard]] std::vector<Outgoing> takeOutgoing() { return std::move(outgoing_); }
@@ -104,6 +95,8 @@ class TouchServer {
     uint64_t driver_ = 0;
     bool forceOn_ = true, touching_ = false, rendered_ = false;
     std::chrono::steady_clock::time_point pumped_{};
+    PumpPlan plan_;
+    ReadTick read_; ///< the newest
     std::future<Loaded> loading_;
     std::unique_ptr<ts::Scene> scene_; ///< that is touched
     Json changedMaterials_;            ///< what clients have changed of it: {"0": {"stiffness": 900}}

@@ -14,7 +14,7 @@ function ask(verb, members = {}) {
 }
 
 function connect() {
-    socket = new WebSocket(`ws://${location.host}/`);
+    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/`);
     socket.onopen = async () => {
         try {
             const hello = await ask('authenticate', {token});

@@ -1,7 +1,7 @@
 """A client of `touchstone serve` (docs/server.md), with nothing but the standard library and NumPy.
 
     from touchstone.client import Client
-    with Client(8790) as server:                 # or Client("/run/user/1000/touch.sock")
+    with Client(8790) as server:                 # or Client("/run/user/1000/touch.sock"), or Client("https://lab:8790", token)
         server.ask("drive")
         server.ask("set", name="stiffness", value="900")
         print(server.state()["force"])
@@ -13,8 +13,10 @@ import os
 import pathlib
 import select
 import socket
+import ssl
 import struct
 import tempfile
+import urllib.parse
 
 import numpy
 
@@ -35,24 +37,38 @@ def token_of(port):
 
 
 class Client:
-    def __init__(self, where, token=None, *, timeout=10.0):
-        """`where`: a port on this machine, or the path of a Unix socket. Authenticates; `self.hello` is the answer."""
+    def __init__(self, where, token=None, *, timeout=10.0, certificate=None):
+        """`where`: a port on this machine, the path of a Unix socket, or the https address of a server with TLS, which needs `token` (the
+        server's file has it). `certificate`: file of the certificates that are trusted (PEM); None: the system's. Authenticates;
+        `self.hello` is the answer."""
         self.events, self.ticks, self._asked = [], [], 0
         if isinstance(where, int):
+            token = token_of(where) if token is None else token
             self._socket = socket.create_connection(("127.0.0.1", where), timeout)
             host = f"127.0.0.1:{where}"
+        elif isinstance(where, str) and where.startswith("https://"):
+            if token is None:
+                raise ValueError("token: is missing; it is in a file on the server's machine")
+            address = urllib.parse.urlsplit(where)
+            host = address.netloc
+            plain = socket.create_connection((address.hostname, address.port or 443), timeout)
+            try:
+                self._socket = ssl.create_default_context(cafile=certificate).wrap_socket(plain, server_hostname=address.hostname)
+            except BaseException:
+                plain.close()
+                raise
         else:
+            token, host = "", "unix"
             self._socket = socket.socket(socket.AF_UNIX)
             self._socket.settimeout(timeout)
             self._socket.connect(os.fspath(where))
-            host = "unix"
         try:
-            self._open(host, where, token)
+            self._open(host, token)
         except BaseException:
             self.close()
             raise
 
-    def _open(self, host, where, token):
+    def _open(self, host, token):
         self._socket.sendall((f"GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                               f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n"
                               "Sec-WebSocket-Version: 13\r\n\r\n").encode())
@@ -62,10 +78,7 @@ class Client:
         head, self._buffer = self._buffer.split(b"\r\n\r\n", 1)
         if b" 101 " not in head.split(b"\r\n")[0]:
             raise ServerError(head.split(b"\r\n")[0].decode(errors="replace"))
-        if isinstance(where, int):
-            self.hello = self.ask("authenticate", token=token_of(where) if token is None else token)
-        else:
-            self.hello = self.ask("authenticate", token="")
+        self.hello = self.ask("authenticate", token=token)
 
     def __enter__(self):
         return self
@@ -148,6 +161,10 @@ class Client:
     def state(self):
         """The newest tick, of those that come 60 times a second: what has piled up is read first."""
         newest = None
-        while newest is None or self.events or self._buffer or select.select([self._socket], [], [], 0)[0]:
+        while newest is None or self.events or self._buffer or self._waiting():
             newest = self.event("state")
         return newest
+
+    def _waiting(self):
+        deciphered = self._socket.pending() if isinstance(self._socket, ssl.SSLSocket) else 0
+        return deciphered > 0 or bool(select.select([self._socket], [], [], 0)[0])

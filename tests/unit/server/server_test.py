@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import socket
+import ssl
 import stat
 import subprocess
 import sys
@@ -28,8 +29,23 @@ def free_port():
         return probe.getsockname()[1]
 
 
+def listening(port):
+    """(address, port) of all sockets of this machine that listen at that port."""
+    found = []
+    for file, size in (("tcp", 4), ("tcp6", 16)):
+        for row in pathlib.Path("/proc/net", file).read_text().splitlines()[1:]:
+            local, state = row.split()[1], row.split()[3]
+            address, number = local.split(":")
+            if state == "0A" and int(number, 16) == port:
+                raw = bytes.fromhex(address)
+                words = b"".join(raw[i:i + 4][::-1] for i in range(0, size, 4))
+                found.append((socket.inet_ntop(socket.AF_INET if size == 4 else socket.AF_INET6, words), port))
+    return found
+
+
 class Server(unittest.TestCase):
     options = ()
+    address = "http://127.0.0.1"
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,7 +63,7 @@ class Server(unittest.TestCase):
                                         "--socket", self.path, *self.options],
                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.end)
-        self.assertIn("http://127.0.0.1", self.server.stdout.readline())
+        self.assertIn(self.address, self.server.stdout.readline())
 
     def end(self):
         self.server.terminate()
@@ -87,6 +103,9 @@ class Access(Server):
         self.addCleanup(silent.close)
         self.assertEqual(self.client().hello["protocol"], 1)
         self.assertEqual(self.client(self.path).hello["protocol"], 1)
+
+    def test_listens_on_loopback_alone(self):
+        self.assertEqual(listening(self.port), [("127.0.0.1", self.port)])
 
     def http(self, path, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
@@ -135,6 +154,83 @@ class Access(Server):
         self.assertAlmostEqual(float(corners.max()), 0.075, places=6)
         for path in ("/../CMakeLists.txt", "/..%2faccess.cpp", "/%2e%2e/main.cpp", "//etc/passwd", "/scene/../../main.cpp"):
             self.assertNotIn(self.http(path)[0], (200,), path)
+
+
+class OffLoopback(unittest.TestCase):
+    """What is refused before anything listens. 192.0.2.1 is nobody's (RFC 5737)."""
+
+    def refusal(self, *options):
+        done = subprocess.run([PROGRAM, "serve", "--port", "8790", *options], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        return done.stderr
+
+    def test_needs_tls(self):
+        for address in ("192.0.2.1", "0.0.0.0"):
+            refusal = self.refusal("--listen", address)
+            for part in (address, "is not on loopback", "--certificate", "ssh -L 8790:127.0.0.1:8790", "stunnel"):
+                self.assertIn(part, refusal)
+        for address in ("lab.example", "127.1", "", "127.0.0.1.evil.example"):
+            self.assertIn("is no IPv4 address", self.refusal("--listen", address))
+
+    def test_needs_a_key_that_is_private(self):
+        with tempfile.TemporaryDirectory() as folder:
+            certificate, key = certify(pathlib.Path(folder))
+            self.assertIn("need each other", self.refusal("--certificate", certificate))
+            self.assertIn("need each other", self.refusal("--key", key))
+            os.chmod(key, 0o644)
+            self.assertIn("everybody may read it", self.refusal("--certificate", certificate, "--key", key))
+
+
+def certify(folder):
+    """A certificate for localhost and 127.0.0.2, and its key."""
+    certificate, key = str(folder / "certificate.pem"), str(folder / "key.pem")
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=lab", "-addext",
+                    "subjectAltName=DNS:localhost,IP:127.0.0.2", "-keyout", key, "-out", certificate], check=True, capture_output=True)
+    os.chmod(key, 0o600)
+    return certificate, key
+
+
+class Tls(Server):
+    """As off loopback, but on another address of it."""
+    address = "https://localhost:"
+
+    def setUp(self):
+        keys = tempfile.TemporaryDirectory()
+        self.addCleanup(keys.cleanup)
+        self.certificate, key = certify(pathlib.Path(keys.name))
+        self.options = ("--listen", "127.0.0.2", "--certificate", self.certificate, "--key", key, "--name", "localhost")
+        super().setUp()
+
+    def test_serves_by_tls_alone(self):
+        url = f"https://127.0.0.2:{self.port}"
+        with Client(url, token_of(self.port), certificate=self.certificate) as client:
+            self.assertIn(client._socket.version(), ("TLSv1.2", "TLSv1.3"))
+            self.touching(client)
+            client.ask("drive")
+            client.ask("set", name="stiffness", value="800")
+            self.assertIn("force", client.state())
+        with self.assertRaises(ValueError):
+            Client(url)  # whose token is not here
+        with self.assertRaises(ServerError):
+            Client(url, "0" * 64, certificate=self.certificate)
+        with self.assertRaises(ssl.SSLCertVerificationError):
+            Client(url, token_of(self.port))
+        connection = socket.create_connection(("127.0.0.2", self.port), 10)  # in clear
+        self.addCleanup(connection.close)
+        connection.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.2:{self.port}\r\n\r\n".encode())
+        try:
+            self.assertNotIn(b" 200 ", connection.recv(1000))
+        except ConnectionError:
+            pass
+        self.assertEqual(listening(self.port), [("127.0.0.2", self.port)])
+        context = ssl.create_default_context(cafile=self.certificate)
+        for host, status in ((f"127.0.0.2:{self.port}", 200), (f"localhost:{self.port}", 200), (f"evil.example:{self.port}", 403)):
+            request = http.client.HTTPSConnection("127.0.0.2", self.port, timeout=10, context=context)
+            request.request("GET", "/", headers={"Host": host})
+            self.assertEqual(request.getresponse().status, status, host)
+            request.close()
+        with Client(self.path) as client:
+            client.ask("ping")
 
 
 class Driving(Server):
