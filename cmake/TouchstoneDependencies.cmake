@@ -1,11 +1,16 @@
-# Every library we stand on, as an imported target. All are Debian 12 packages: tools/dependencies.txt.
+# Every library we stand on, as an imported target. All are packages of Debian 12 and 13: tools/dependencies.txt.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(Vulkan 1.3 REQUIRED)
 find_package(glfw3 3.3 REQUIRED)
 find_package(glm REQUIRED)
 find_package(TinyGLTF REQUIRED)
-find_package(embree 3.13 REQUIRED)
+# Debian 12 has Embree 3, Debian 13 Embree 4: other headers, other arguments (haptics/shape/mesh/embree.h).
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+    find_package(embree 3.13 REQUIRED)
+endif()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/haptics/shape/mesh/embree_version.h CONTENT "#define TOUCHSTONE_EMBREE @embree_VERSION_MAJOR@\n" @ONLY)
 find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -1,6 +1,7 @@
 #include "renderer/imgui_backend.h"
 
 #include "renderer/gpu_memory.h"
+#include "renderer/vulkan_result.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -17,14 +18,21 @@ namespace {
 void checkResult(VkResult result) {
     // Called from C callbacks of a library, within our own call of it.
     if (result < 0)
-        vk::throwResultException(static_cast<vk::Result>(result), "Dear ImGui");
+        throwResult(result, "Dear ImGui");
 }
 
 /// True if a key was pressed or released since the last frame.
 bool keysChanged(const ImGuiIO& io) {
+    const auto held = [](float duration) { return duration >= 0.0f; };
+#if IMGUI_VERSION_NUM >= 18700
+    return std::any_of(std::begin(io.KeysData), std::end(io.KeysData), [&](const ImGuiKeyData& key) {
+        return held(key.DownDuration) != held(key.DownDurationPrev);
+    });
+#else
     return !std::equal(std::begin(io.KeysDownDuration), std::end(io.KeysDownDuration),
                        std::begin(io.KeysDownDurationPrev),
-                       [](float now, float before) { return (now >= 0.0f) == (before >= 0.0f); });
+                       [&](float now, float before) { return held(now) == held(before); });
+#endif
 }
 
 } // namespace
@@ -58,9 +66,13 @@ void ImGuiBackend::takeDevice(const Gpu::Impl& gpu, vk::RenderPass pass, vk::Des
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = &checkResult;
     ImGui_ImplVulkan_Init(&info, pass);
+#if IMGUI_VERSION_NUM >= 19000
+    ImGui_ImplVulkan_CreateFontsTexture();
+#else
     runOnce(gpu,
             [](const vk::raii::CommandBuffer& commands) { ImGui_ImplVulkan_CreateFontsTexture(*commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
+#endif
 }
 
 void ImGuiBackend::leaveDevice() {

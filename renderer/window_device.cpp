@@ -4,6 +4,7 @@
 #include "renderer/imgui_backend.h"
 #include "renderer/scene_renderer_impl.h"
 #include "renderer/shader_code.h"
+#include "renderer/vulkan_result.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -259,7 +260,7 @@ std::optional<uint32_t> WindowDevice::acquire(const Frame& frame) {
         return std::nullopt;
     }
     if (acquired != VK_SUCCESS && acquired != VK_SUBOPTIMAL_KHR)
-        vk::throwResultException(static_cast<vk::Result>(acquired), "vkAcquireNextImageKHR");
+        throwResult(acquired, "vkAcquireNextImageKHR");
     return image;
 }
 
@@ -309,7 +310,7 @@ void WindowDevice::submit(const Frame& frame, uint32_t image) {
     if (presented == VK_ERROR_OUT_OF_DATE_KHR)
         outdated_ = true;
     else if (presented != VK_SUCCESS && presented != VK_SUBOPTIMAL_KHR)
-        vk::throwResultException(static_cast<vk::Result>(presented), "vkQueuePresentKHR");
+        throwResult(presented, "vkQueuePresentKHR");
 }
 
 std::optional<PixelData> WindowDevice::takeCapture() {

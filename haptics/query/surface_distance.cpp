@@ -1,10 +1,9 @@
 #include "haptics/query/surface_distance.h"
 
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/shape/mesh/embree.h"
 #include "haptics/shape/mesh/triangle.h"
 #include "haptics/shape/near_shapes.h"
-
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <array>

@@ -213,11 +213,18 @@ TEST_P(WindowTargetTest, PanelsAreDrawnAtOnceAfterAnyKey) {
     };
     wholeOf(5);
     ASSERT_EQ(wholeOf(3), 0u);
-    ImGui::GetIO().KeysDown[GLFW_KEY_F] = true;
+    const auto press = [](bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+        ImGui::GetIO().AddKeyEvent(ImGuiKey_F, down);
+#else
+        ImGui::GetIO().KeysDown[GLFW_KEY_F] = down;
+#endif
+    };
+    press(true);
     EXPECT_EQ(wholeOf(1), 1u) << "in this frame";
     EXPECT_EQ(wholeOf(2), 2u) << "and the next, which tell what came of it";
     EXPECT_EQ(wholeOf(3), 0u) << "not as long as it is held";
-    ImGui::GetIO().KeysDown[GLFW_KEY_F] = false;
+    press(false);
     EXPECT_EQ(wholeOf(1), 1u) << "let go";
 }
 

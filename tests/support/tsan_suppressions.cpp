@@ -4,7 +4,9 @@
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
     return "called_from_lib:libembree3.so\n"
+           "called_from_lib:libembree4.so\n"
            "called_from_lib:libtbb.so\n"
            "race:libembree3.so\n"
+           "race:libembree4.so\n"
            "race:libtbb.so\n";
 }

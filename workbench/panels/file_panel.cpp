@@ -2,6 +2,7 @@
 
 #include "workbench/panels/card.h"
 #include "workbench/panels/colors.h"
+#include "workbench/screen/native_key.h"
 
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -36,7 +37,7 @@ std::string sizeText(uint64_t bytes) {
 /// Also while a text is typed, where they have no other meaning.
 bool pressed(int key, bool repeat = false) {
     const ImGuiIO& io = ImGui::GetIO();
-    return !io.KeyCtrl && !io.KeyAlt && !io.KeySuper && ImGui::IsKeyPressed(key, repeat);
+    return !io.KeyCtrl && !io.KeyAlt && !io.KeySuper && ImGui::IsKeyPressed(nativeKey(key), repeat);
 }
 
 void header(FileDialog& dialog, Widgets& widgets) {
@@ -184,7 +185,7 @@ void browserKeys(FileDialog& dialog, bool& moved) {
     constexpr auto kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
     if (pressed(GLFW_KEY_ESCAPE) && !ImGui::IsPopupOpen("", kAny)) // the list of kinds lies on top
         dialog.close();
-    if (ImGui::GetIO().KeyAlt && ImGui::IsKeyPressed(GLFW_KEY_UP, false))
+    if (ImGui::GetIO().KeyAlt && ImGui::IsKeyPressed(nativeKey(GLFW_KEY_UP), false))
         browser.goUp();
     const int step = (pressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (pressed(GLFW_KEY_UP, true) ? 1 : 0);
     moved = step != 0;

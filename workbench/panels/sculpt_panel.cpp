@@ -2,6 +2,7 @@
 #include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
+#include "workbench/screen/native_key.h"
 
 #include <glm/gtc/color_space.hpp>
 #include <imgui.h>
@@ -105,9 +106,9 @@ void sculptKeys(SculptChoice& choice) {
         choice.on = !choice.on;
     const ImGuiIO& io = ImGui::GetIO();
     const bool reads = choice.on && !io.WantTextInput;
-    choice.held = reads && !io.KeyCtrl && !io.KeyAlt && ImGui::IsKeyDown(keyOf('d'));
+    choice.held = reads && !io.KeyCtrl && !io.KeyAlt && ImGui::IsKeyDown(nativeKey(keyOf('d')));
     choice.inverts = reads && io.KeyCtrl;
-    choice.smooths = reads && io.KeyShift && !ImGui::IsKeyDown(keyOf('f'));
+    choice.smooths = reads && io.KeyShift && !ImGui::IsKeyDown(nativeKey(keyOf('f')));
     if (!reads)
         return;
     if (keyPressed(keyOf('i')))
@@ -116,7 +117,7 @@ void sculptKeys(SculptChoice& choice) {
         (io.KeyShift ? choice.redo : choice.undo) = true;
     if (ctrlPressed(keyOf('y'), true))
         choice.redo = true;
-    if (ImGui::IsKeyDown(keyOf('f')) && !io.KeyCtrl && !io.KeyAlt) {
+    if (ImGui::IsKeyDown(nativeKey(keyOf('f'))) && !io.KeyCtrl && !io.KeyAlt) {
         // The pointer to the right: larger.
         const auto grown = std::exp(0.006 * static_cast<double>(io.MouseDelta.x));
         double& value = io.KeyShift ? choice.strength : choice.radius;

@@ -5,6 +5,7 @@
 #include "workbench/panels/recording_list_panel.h"
 #include "workbench/panels/timeline_curves.h"
 #include "workbench/screen/keys.h"
+#include "workbench/screen/native_key.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
@@ -254,9 +255,9 @@ void timelineKeys(TimelineController& controller) {
         else
             at.step(direction);
     };
-    if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) // repeats while held
+    if (ImGui::IsKeyPressed(nativeKey(GLFW_KEY_LEFT))) // repeats while held
         stepOnce(-1);
-    if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT))
+    if (ImGui::IsKeyPressed(nativeKey(GLFW_KEY_RIGHT)))
         stepOnce(1);
     if (keyPressed(GLFW_KEY_HOME))
         at.toBegin();

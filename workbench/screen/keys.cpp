@@ -1,5 +1,7 @@
 #include "workbench/screen/keys.h"
 
+#include "workbench/screen/native_key.h"
+
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -24,7 +26,9 @@ KeyTable readKeyboard() {
     KeyTable table{};
     for (size_t sign = 0; sign < kSigns; ++sign)
         table[sign] = americanKey(static_cast<char>(sign));
-    for (int key = GLFW_KEY_APOSTROPHE; key <= GLFW_KEY_GRAVE_ACCENT; ++key) {
+    // From 1.87 on Dear ImGui numbers the keys by what they type, in the names of the US layout.
+    constexpr int kFirst = IMGUI_VERSION_NUM < 18700 ? GLFW_KEY_APOSTROPHE : GLFW_KEY_GRAVE_ACCENT + 1;
+    for (int key = kFirst; key <= GLFW_KEY_GRAVE_ACCENT; ++key) {
         const char* name = glfwGetKeyName(key, 0);
         const auto sign = name != nullptr ? static_cast<unsigned char>(name[0]) : kSigns;
         if (sign < kSigns && name[1] == '\0')
@@ -45,7 +49,7 @@ const KeyTable& keyboard() {
 }
 
 bool anyDown(std::initializer_list<int> keys) {
-    return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyDown(key); });
+    return std::any_of(keys.begin(), keys.end(), [](int key) { return ImGui::IsKeyDown(nativeKey(key)); });
 }
 
 /// Text field shortcuts with Ctrl.
@@ -65,7 +69,7 @@ bool keyPressed(int key) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool writesNothing = key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25;
     return (!io.WantTextInput || writesNothing) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper &&
-           ImGui::IsKeyPressed(key, false);
+           ImGui::IsKeyPressed(nativeKey(key), false);
 }
 
 bool keyPressed(std::initializer_list<int> keys) {
@@ -75,12 +79,13 @@ bool keyPressed(std::initializer_list<int> keys) {
 bool ctrlPressed(int key, bool repeat) {
     const ImGuiIO& io = ImGui::GetIO();
     return !(io.WantTextInput && editsText(key)) && io.KeyCtrl && !io.KeyAlt && !io.KeySuper &&
-           ImGui::IsKeyPressed(key, repeat);
+           ImGui::IsKeyPressed(nativeKey(key), repeat);
 }
 
 bool altPressed(int key) {
     const ImGuiIO& io = ImGui::GetIO();
-    return !io.WantTextInput && io.KeyAlt && !io.KeyCtrl && !io.KeySuper && ImGui::IsKeyPressed(key, false);
+    return !io.WantTextInput && io.KeyAlt && !io.KeyCtrl && !io.KeySuper &&
+           ImGui::IsKeyPressed(nativeKey(key), false);
 }
 
 double keyAxis(std::initializer_list<int> less, std::initializer_list<int> more) {

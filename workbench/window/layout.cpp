@@ -8,6 +8,7 @@
 #include "workbench/panels/file_panel.h"
 #include "workbench/panels/panels.h"
 #include "workbench/screen/keys.h"
+#include "workbench/screen/native_key.h"
 #include "workbench/timeline/timeline_controller.h"
 
 #include <imgui.h>
@@ -122,7 +123,8 @@ void closeTopPopup(const PanelState& state) {
 /// Escape closes the topmost item.
 void escape(const PanelInput& input, PanelState& state) {
     // Help lies over the browser, whose text field has the keyboard.
-    if (state.help && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !ImGui::IsPopupOpen("", kAnyPopup)) {
+    if (state.help && ImGui::IsKeyPressed(nativeKey(GLFW_KEY_ESCAPE), false) &&
+        !ImGui::IsPopupOpen("", kAnyPopup)) {
         state.help = false;
         return;
     }
@@ -164,7 +166,8 @@ void zoomKeys(PanelState& state) {
     const ImGuiIO& io = ImGui::GetIO();
     double& zoom = state.workspace.zoom;
     const int clutch = keyOf('c');
-    state.workspace.clutch = !io.WantTextInput && !io.KeyCtrl && !io.KeyShift && ImGui::IsKeyDown(clutch);
+    state.workspace.clutch =
+        !io.WantTextInput && !io.KeyCtrl && !io.KeyShift && ImGui::IsKeyDown(nativeKey(clutch));
     if (keyPressed(clutch) && io.KeyShift)
         state.centrePressed = true;
     if (keyPressed(GLFW_KEY_PAGE_UP))

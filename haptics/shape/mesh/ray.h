@@ -1,8 +1,8 @@
 #pragma once
 
+#include "haptics/shape/mesh/embree.h"
 #include "haptics/shape/mesh/haptic_object.h"
 
-#include <embree3/rtcore.h>
 #include <glm/glm.hpp>
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct RayHit {
     float distance; ///< in multiples of the direction's length
 };
 
-/// Embree 3 takes coordinates of at most 1.844e18 (its Ray::valid), and Debian's build asserts it.
+/// Embree takes coordinates of at most 1.844e18 (its Ray::valid), and Debian's build asserts it.
 inline constexpr float kEmbreeReach = 1e18f;
 
 /// The first triangle of an object that the ray from + t * direction meets at near <= t <= far (near >= 0);
@@ -32,8 +32,6 @@ inline constexpr float kEmbreeReach = 1e18f;
     };
     if (!within(from) || !within(direction) || !(near <= far) || object.shape != nullptr)
         return std::nullopt;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit hit;
     hit.ray.org_x = from.x;
     hit.ray.org_y = from.y;
@@ -49,7 +47,7 @@ inline constexpr float kEmbreeReach = 1e18f;
     hit.ray.flags = 0;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(object.rays.get(), &context, &hit);
+    intersectRay(object.rays.get(), hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     return RayHit{hit.hit.primID, hit.ray.tfar};

@@ -1,9 +1,8 @@
 #include "haptics/shape/mesh/ray_tree.h"
 
+#include "haptics/shape/mesh/embree.h"
 #include "haptics/shape/mesh/embree_device.h"
 #include "haptics/shape/mesh/haptic_object.h"
-
-#include <embree3/rtcore.h>
 
 namespace touchstone {
 

@@ -2,9 +2,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "haptics/shape/mesh/embree.h"
 #include "haptics/shape/mesh/embree_device.h"
-
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <atomic>
