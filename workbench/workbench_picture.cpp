@@ -42,7 +42,8 @@ void WorkbenchWindow::draw() {
         touch_.sculpt().draw(screen_.renderer());
         const bool recorded = timeline_.looking() && timeline_.modelIsOpen() && !timeline_.again().running();
         touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer(),
-                    recorded ? timeline_.bodies() : std::span<const body::Pose>());
+                    recorded ? timeline_.bodies() : std::span<const body::Pose>(),
+                    recorded ? timeline_.moved() : std::span<const DrivenPose>());
     }
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{

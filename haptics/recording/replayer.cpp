@@ -330,6 +330,13 @@ void Replayer::resume(const RecordedTick& tick) {
         known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
 }
 
+std::span<const DrivenPose> Replayer::moved() const {
+    const auto scene = loaded_.find(rootOf(scene_));
+    if (scene == loaded_.end() || scene->second == nullptr || scene->second->world.driven() == nullptr)
+        return {};
+    return scene->second->world.driven()->newest().poses();
+}
+
 const body::BodyWorld* Replayer::bodies() const {
     const auto scene = loaded_.find(rootOf(scene_));
     return scene != loaded_.end() && scene->second != nullptr ? scene->second->world.bodies().get() : nullptr;

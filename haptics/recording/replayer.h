@@ -87,6 +87,8 @@ class Replayer {
     [[nodiscard]] const ReplayReport& report() const { return report_; }
     /// In `each`: the bodies after that tick; null where the scene has none.
     [[nodiscard]] const body::BodyWorld* bodies() const;
+    /// In `each`: the objects that a caller moved, after that tick.
+    [[nodiscard]] std::span<const DrivenPose> moved() const;
 
   private:
     struct Touched {

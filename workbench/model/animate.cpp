@@ -4,6 +4,9 @@
 #include "engine/scene/mesh_deformation.h"
 #include "haptics/body/body_world.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include <array>
 #include <span>
 #include <vector>
@@ -33,6 +36,28 @@ void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
         deform(mesh, vertices, rest, drawn);
         renderer.setMeshVertices(static_cast<int>(m), drawn);
     }
+}
+
+void poseMoved(double time, const Scene& scene, const HapticScene& haptic, std::span<const DrivenPose> moved,
+               SceneRenderer& renderer) {
+    if (!renderer.hasScene())
+        return;
+    poseAt(time, scene, renderer); // the vertices that deform
+    ScenePose pose(scene);
+    if (const Animation* animation = playedAnimation(scene))
+        pose.evaluate(scene, animation, loopedTime(*animation, time));
+    std::vector<glm::dmat4> sceneFromMesh(pose.sceneFromMesh().begin(), pose.sceneFromMesh().end());
+    for (const DrivenPose& object : moved) {
+        const auto index = static_cast<size_t>(object.object);
+        if (index >= haptic.objects.size() || haptic.objects[index]->instance < 0)
+            continue;
+        const Similarity& rest = haptic.restMotions[index].workspaceFromObject;
+        const Similarity way =
+            haptic.workspaceFromScene.inverse() * (object.now * rest.inverse()) * haptic.workspaceFromScene;
+        glm::dmat4& placed = sceneFromMesh[static_cast<size_t>(haptic.objects[index]->instance)];
+        placed = glm::translate(glm::dmat4(1.0), way.translation) * glm::mat4_cast(way.rotation) * placed;
+    }
+    renderer.setInstancePoses(sceneFromMesh);
 }
 
 void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, SceneRenderer& renderer) {

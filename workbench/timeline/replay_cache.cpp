@@ -65,6 +65,10 @@ class SegmentReader {
             const size_t at = begin + static_cast<size_t>(&tick - block->ticks.data());
             result_->outputs[at] = output;
             result_->equal[at] = equal ? 1 : 0;
+            if (const std::span<const DrivenPose> moved = replayer.moved(); !moved.empty()) {
+                result_->moved.resize(result_->ticks.size());
+                result_->moved[at].assign(moved.begin(), moved.end());
+            }
             const body::BodyWorld* const bodies = replayer.bodies();
             if (bodies == nullptr)
                 return;
@@ -211,6 +215,12 @@ const std::vector<body::Pose>* ReplayCache::bodies(size_t index) const {
         return nullptr;
     const std::vector<body::Pose>& bodies = segment->bodies[index - segment->first];
     return bodies.empty() ? nullptr : &bodies;
+}
+
+std::span<const DrivenPose> ReplayCache::moved(size_t index) const {
+    const LensSegment* const segment = segmentWith(index);
+    return segment != nullptr && !segment->moved.empty() ? segment->moved[index - segment->first]
+                                                         : std::span<const DrivenPose>();
 }
 
 bool ReplayCache::complete(size_t index) const {

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct LensSegment {
     std::vector<uint8_t> equal;        ///< 1: recomputed, and bitwise equal in every stage
     /// After each recomputed tick, of a scene with bodies, in the recorded workspace; else empty.
     std::vector<std::vector<body::Pose>> bodies;
+    /// The same of the objects that a caller moved.
+    std::vector<std::vector<DrivenPose>> moved;
     bool tried = false; ///< with the scenes of its ticks
 };
 
@@ -43,6 +46,8 @@ class ReplayCache {
     bool show(size_t index, TickRecord& record) const;
     /// The bodies after a tick that was recomputed, in the recorded workspace; null: it was not, or has none.
     [[nodiscard]] const std::vector<body::Pose>* bodies(size_t index) const;
+    /// The same of the objects that a caller moved; empty: there are none.
+    [[nodiscard]] std::span<const DrivenPose> moved(size_t index) const;
     /// It was recomputed, with the recorded result.
     [[nodiscard]] bool complete(size_t index) const;
     /// Why its ticks cannot be recomputed; empty: no problem, or not tried.

@@ -188,6 +188,10 @@ void TimelineController::showTick() {
     bodies_ = bodies != nullptr ? *bodies : std::vector<body::Pose>();
     for (body::Pose& body : bodies_)
         body = {openFromRecorded_.rotation * body.rotation, openFromRecorded_.point(body.position)};
+    const std::span<const DrivenPose> moved = replayCache_->moved(cursor);
+    moved_.assign(moved.begin(), moved.end());
+    for (DrivenPose& object : moved_)
+        object.now = openFromRecorded_ * object.now;
 }
 
 TimelineController::ModelFit TimelineController::fitOf(const RecordedScene& scene,
@@ -303,6 +307,11 @@ nlohmann::ordered_json TimelineController::json() const {
     json["bodies"] = nlohmann::ordered_json::array();
     for (const body::Pose& body : bodies_)
         json["bodies"].push_back({body.position.x, body.position.y, body.position.z});
+    json["moved"] = nlohmann::ordered_json::array();
+    for (const DrivenPose& object : moved_) {
+        const glm::dvec3& place = object.now.translation;
+        json["moved"].push_back({{"object", object.object}, {"position", {place.x, place.y, place.z}}});
+    }
     json["force_n"] = timeline_->force()[at.cursor()];
     json["marks"] = timeline_->marks().size();
     json["notes"] = notes_;

@@ -71,6 +71,8 @@ class TimelineController {
     /// The bodies after that tick, in the workspace of the open model; empty where the recording has none,
     /// or they are not known yet.
     [[nodiscard]] const std::vector<body::Pose>& bodies() const { return bodies_; }
+    /// The same of the objects that a caller moved.
+    [[nodiscard]] const std::vector<DrivenPose>& moved() const { return moved_; }
     /// It is the cursor's tick, with the recomputed data.
     [[nodiscard]] bool tickComplete() const { return complete_ == playback_->cursor(); }
     [[nodiscard]] const HapticSettings& settings() const {
@@ -140,6 +142,7 @@ class TimelineController {
     std::string lensProblem_;
     TickRecord tick_;
     std::vector<body::Pose> bodies_;
+    std::vector<DrivenPose> moved_;
     std::optional<size_t> complete_; // the tick in tick_, if complete
     ModelFit fit_ = ModelFit::None;
     Similarity openFromRecorded_; // workspaces

@@ -123,7 +123,8 @@ void LiveTouch::operate(HapticSettings& settings) {
         (void)controls_.apply(poses->workspaceFromBody, settings);
 }
 
-void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded) {
+void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded,
+                     std::span<const DrivenPose> moved) {
     const body::BodyPoses* const poses = session_.servo().bodyPoses();
     if (poses != nullptr && poses->workspaceFromBody.size() == recorded.size()) {
         body::BodyPoses then(*poses);
@@ -131,7 +132,10 @@ void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body:
         poseBodies(then, time, picker_.world(), renderer);
     } else if (poses != nullptr)
         poseBodies(*poses, time, picker_.world(), renderer);
-    else
+    else if (drawnMoved_ || !moved.empty()) {
+        poseMoved(time, *shown_.model.scene, *shown_.model.haptic, moved, renderer);
+        drawnMoved_ = !moved.empty();
+    } else
         poseAt(time, *shown_.model.scene, renderer);
     if (SoftObjects* const soft = session_.servo().soft())
         poseSoft(*soft, *shown_.model.scene, *shown_.model.haptic, renderer);

@@ -83,8 +83,9 @@ class LiveTouch {
         return picker_.look(ray, animationTime(settings, tick().time), settings, tick().sample.limits);
     }
     /// Draws what moves where it is at `time` (s, of the servo); bodies where they are now, or where a
-    /// recording of this model has them.
-    void pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded = {});
+    /// recording of this model has them; objects where a caller moved them in that recording.
+    void pose(double time, SceneRenderer& renderer, std::span<const body::Pose> recorded = {},
+              std::span<const DrivenPose> moved = {});
     /// The scene has bodies; they go back to where the file puts them, and touch begins anew.
     [[nodiscard]] bool hasBodies() const { return hasModel() && shown_.model.scene->physics != nullptr; }
     void resetBodies() { offerScene(SceneSwap::Anew, false); }
@@ -132,6 +133,7 @@ class LiveTouch {
     FeltPartBuild partBuild_;
     std::string wholeEdits_, partEdits_; // of whole_, and of the part that is being compiled
     bool builtAgain_ = false;
+    bool drawnMoved_ = false; // objects are drawn where a caller moved them
     BackgroundBuild build_;
     Picker picker_;
     ShownTextures textures_;

@@ -3,9 +3,11 @@
 
 #include "tests/unit/workbench/touch_files.h"
 #include "tests/unit/workbench/window_test.h"
+#include "touchstone/touchstone.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -348,6 +350,45 @@ TEST_F(TimelineWindow, ShowsTheBodiesOfTheTimeUnderTheCursor) {
     EXPECT_GT(farthest(begin, after), 2e-3);
     EXPECT_EQ(begin["cursor_tick"], again["cursor_tick"]);
     EXPECT_EQ(farthest(begin, again), 0.0);
+    expectCleanEnd();
+}
+
+/// A client lifts the box while a simulated hand strokes it: it is shown where it was at the cursor's time.
+TEST_F(TimelineWindow, ShowsMovedObjectsOfTheTimeUnderTheCursor) {
+    const std::string file = (scratch_ / "r.tsrec").string();
+    {
+        const ts::Scene scene(TOUCHSTONE_ASSETS "/box.glb", TS_FIT_WORKSPACE);
+        ts_object_info box = TS_STRUCT(ts_object_info);
+        ts::check(ts_scene_object(scene.get(), 0, &box));
+        ts_pose lifted = TS_STRUCT(ts_pose);
+        std::copy_n(box.centre, 3, lifted.position);
+        lifted.position[1] += 0.03;
+        ts::Session session("stroke");
+        session.touch(scene);
+        session.record(file);
+        session.start();
+        session.run(0.5, [](const ts_state&) { return true; });
+        session.move(0, lifted);
+        session.run(1.5, [](const ts_state&) { return true; });
+        session.stop();
+        session.endRecording();
+    }
+    open(file);
+    const auto lookAt = [&](double share, bool moved) {
+        display_.click(onTimeline(share));
+        later();
+        return timeline(until("the objects there", [&](const Json& s) {
+            return looking(s) && timeline(s)["tick_complete"] == true &&
+                   timeline(s)["moved"].empty() != moved;
+        }));
+    };
+    until("recording and model",
+          [](const Json& s) { return looking(s) && timeline(s)["tick_complete"] == true; });
+    const Json after = lookAt(0.95, true), before = lookAt(0.02, false), again = lookAt(0.95, true);
+    EXPECT_EQ(after["moved"][0]["object"], 0);
+    EXPECT_EQ(after["moved"], again["moved"]);
+    const Json way = lookAt(0.35, true); // on its way, at 0.1 m/s
+    EXPECT_LT(way["moved"][0]["position"][1], after["moved"][0]["position"][1]);
     expectCleanEnd();
 }
 
