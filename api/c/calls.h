@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone::api {
 
@@ -61,6 +62,25 @@ template <class T>
     std::memcpy(&value, bytes, std::min(size, sizeof(T)));
     value.size = sizeof(T);
     return value;
+}
+/// The name of an entry of an array, for messages.
+[[nodiscard]] inline std::string entry(const char* array, size_t i) {
+    return std::string(array) + "[" + std::to_string(i) + "]";
+}
+/// Structs of a caller's array: the first one's size is the distance to the next.
+template <class T>
+[[nodiscard]] std::vector<T> structsOf(const T* array, size_t count, const char* argument) {
+    std::vector<T> structs;
+    if (count == 0)
+        return structs;
+    const size_t stride = sizeOf(given(array, argument), argument);
+    const auto* at = reinterpret_cast<const unsigned char*>(array);
+    constexpr size_t kMost = 20'000; // as many as the reader of mesh files takes
+    if (count > kMost)
+        refuseArgument(argument, std::to_string(count) + " of them; at most " + std::to_string(kMost));
+    for (size_t i = 0; i < count; ++i, at += stride)
+        structs.push_back(structOf(reinterpret_cast<const T*>(at), entry(argument, i).c_str()));
+    return structs;
 }
 /// Writes what the caller has room for and keeps his size.
 template <class T>

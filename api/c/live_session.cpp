@@ -1,12 +1,11 @@
 #include "api/c/live_session.h"
 
 #include "api/c/calls.h"
-#include "devices/choice/device_choice.h"
-#include "devices/stroke/stroke_library.h"
 #include "engine/time/seconds_now.h"
 #include "haptics/scene/built_for.h"
 #include "session/device_port.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -15,30 +14,9 @@ namespace touchstone::api {
 
 namespace {
 
-constexpr const char* kStroke = "stroke";
-
-double limitOr(double given, double usual, const char* member, const char* of = "options.own.") {
-    if (given == 0.0)
-        return usual;
-    if (!std::isfinite(given) || given < 0.0)
-        refuseArgument(std::string(of) + member, "is not finite and above 0");
-    return given;
-}
-
 void setVector(double (&out)[3], const glm::dvec3& value) {
     for (int axis = 0; axis < 3; ++axis)
         out[axis] = value[axis];
-}
-
-/// The stroke that `device` names; empty: it names a device.
-std::string strokeOf(const char* device) {
-    const std::string text = device != nullptr ? device : "";
-    if (text != kStroke && !text.starts_with("stroke:"))
-        return {};
-    const std::string name = text == kStroke ? "tour" : text.substr(7);
-    if (const std::string problem = strokeProblem(name); !problem.empty())
-        refuseArgument("options.device", problem);
-    return name;
 }
 
 ControlConfig controlOf(const ts_session_options& options) {
@@ -46,8 +24,8 @@ ControlConfig controlOf(const ts_session_options& options) {
     if (!(options.control >= kMinServoRate && options.control <= kMaxServoRate))
         refuseArgument("options.control", "is not within 100 .. 4000 Hz");
     control.rateHz = options.control;
-    control.contactPower = limitOr(options.contact_power, control.contactPower, "contact_power", "options.");
-    control.goalPower = limitOr(options.goal_power, control.goalPower, "goal_power", "options.");
+    control.contactPower = limitOr(options.contact_power, control.contactPower, "options.contact_power");
+    control.goalPower = limitOr(options.goal_power, control.goalPower, "options.goal_power");
     return control;
 }
 
@@ -55,8 +33,8 @@ ControlConfig controlOf(const ts_session_options& options) {
 DrivenPose goalOf(const ts_pose& pose, const Similarity& rest) {
     DrivenPose goal;
     goal.goal = rest;
-    goal.speed = limitOr(pose.speed, 0.1, "speed", "pose.");
-    goal.turn = limitOr(pose.turn, 1.0, "turn", "pose.");
+    goal.speed = limitOr(pose.speed, 0.1, "pose.speed");
+    goal.turn = limitOr(pose.turn, 1.0, "pose.turn");
     if (goal.speed > kMostDriveSpeed)
         refuseArgument("pose.speed", "is above 0.5 m/s");
     if (goal.turn > kMostDriveTurn)
@@ -75,40 +53,6 @@ DrivenPose goalOf(const ts_pose& pose, const Similarity& rest) {
 
 } // namespace
 
-CallersDevice::CallersDevice(const ts_device& device) : device_(device) {
-    if (device_.sample == nullptr)
-        refuseArgument("options.own.sample", "is null");
-    if (device_.apply == nullptr)
-        refuseArgument("options.own.apply", "is null");
-    limits_.maxForce = limitOr(device_.max_force, limits_.maxForce, "max_force");
-    limits_.maxForceRate = limitOr(device_.max_force_rate, limits_.maxForceRate, "max_force_rate");
-    limits_.recommendedStiffness = limitOr(device_.stiffness, limits_.recommendedStiffness, "stiffness");
-    limits_.maxStiffness = limitOr(device_.max_stiffness, limits_.maxStiffness, "max_stiffness");
-    limits_.staleAge = limitOr(device_.stale_age, limits_.staleAge, "stale_age");
-}
-
-DeviceSample CallersDevice::sample(double time) noexcept {
-    ts_reading reading{};
-    reading.size = sizeof reading;
-    device_.sample(device_.context, time, &reading);
-    DeviceSample sample;
-    sample.position = {reading.position[0], reading.position[1], reading.position[2]};
-    const glm::dquat turned{reading.orientation[0], reading.orientation[1], reading.orientation[2],
-                            reading.orientation[3]};
-    if (const double length = glm::length(turned); std::isfinite(length) && length > 1e-6)
-        sample.orientation = turned / length;
-    sample.age = reading.age;
-    sample.buttons = reading.buttons;
-    sample.valid = reading.valid != 0;
-    return sample;
-}
-
-void CallersDevice::apply(const DeviceCommand& command) noexcept {
-    const glm::dvec3& force = command.force();
-    const double array[3]{force.x, force.y, force.z};
-    device_.apply(device_.context, array);
-}
-
 LiveSession::LiveSession(const ts_session_options& options)
     : rate_(options.rate != 0.0 ? options.rate : 1000.0), keep_(options.keep) {
     constexpr size_t kMostKept = 10'000'000;
@@ -118,15 +62,16 @@ LiveSession::LiveSession(const ts_session_options& options)
         refuseArgument("options.keep", "is above " + std::to_string(kMostKept));
     if (options.control != 0.0)
         controlled_ = controlOf(options);
-    if ((options.device == nullptr) == (options.own == nullptr))
-        refuseArgument("options.device", "give either a device or `own`");
-    if (options.own != nullptr)
-        own_ = std::make_unique<CallersDevice>(structOf(options.own, "options.own"));
-    else if (stroke_ = strokeOf(options.device); stroke_.empty()) {
-        linked_ = openDevice(options.device, "stroke (a simulated hand)");
-        if (linked_ == nullptr)
-            throw Refused(TS_INPUT, "options.device: no device is plugged in that may be used");
-    }
+    hands_.push_back(std::make_unique<LiveHand>(options.device, options.own, "options"));
+    if (options.other_count >= kMaxHands)
+        refuseArgument("options.other_count", "is above " + std::to_string(kMaxHands - 1));
+    if (controlled_ && options.other_count > 0)
+        refuseArgument("options.other_count", "is above 0: a control loop has one hand");
+    const std::vector<ts_other_hand> others =
+        structsOf(options.others, options.other_count, "options.others");
+    for (size_t i = 0; i < others.size(); ++i)
+        hands_.push_back(
+            std::make_unique<LiveHand>(others[i].device, others[i].own, entry("options.others", i)));
 }
 
 LiveSession::~LiveSession() {
@@ -141,32 +86,23 @@ void LiveSession::requireOpen() const {
         throw Refused(TS_CLOSED, "session: this handle was closed");
 }
 
-Device& LiveSession::simulatedHand() {
-    StrokeRequest request;
-    request.name = stroke_;
-    const auto stroke = std::make_shared<StrokePath>(
-        layStroke(*scene_->source(), scene_->haptic()->workspaceFromScene, request));
-    path_ = std::make_unique<SimulatedHand>(stroke);
-    yielding_ = std::make_unique<HandImpedance>(*path_);
-    mapped_ = std::make_unique<MappedDevice>(*yielding_, 1.0, stroke->place());
-    return *mapped_;
-}
-
 void LiveSession::makeSession() {
-    Device* device = own_.get();
-    if (linked_ != nullptr) {
-        mapped_ = std::make_unique<MappedDevice>(*linked_, 1.0, glm::dvec3(0.0));
-        device = mapped_.get();
-    } else if (device == nullptr) {
-        device = &simulatedHand();
+    size_t simulated = 0, before = 0;
+    for (const auto& hand : hands_)
+        simulated += hand->simulated() ? 1 : 0;
+    std::vector<DevicePort> ports;
+    for (const auto& hand : hands_) {
+        const double late =
+            hand->simulated() ? static_cast<double>(before++) / static_cast<double>(simulated) : 0.0;
+        Device* device = &hand->connect(*scene_, late);
+        if (controlled_) {
+            control_ = std::make_unique<ControlLoop>(*device, *controlled_);
+            enableControl();
+            device = control_.get();
+        }
+        ports.push_back(portOf(*device));
     }
-    if (controlled_) {
-        control_ = std::make_unique<ControlLoop>(*device, *controlled_);
-        enableControl();
-        device = control_.get();
-    }
-    session_ =
-        std::make_unique<Session>(std::vector<DevicePort>{portOf(*device)}, ServoConfig{.rateHz = rate_});
+    session_ = std::make_unique<Session>(std::move(ports), ServoConfig{.rateHz = rate_});
     recorder_.emplace(session_->servo());
     session_->subscribe(*this);
     session_->set(settings_);
@@ -180,7 +116,8 @@ void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
     changed_.reset();
     driven_.reset();
     hashed_ = true;
-    if (session_ == nullptr || (!running_ && !stroke_.empty())) {
+    const bool strokes = std::ranges::any_of(hands_, [](const auto& hand) { return hand->simulated(); });
+    if (session_ == nullptr || (!running_ && strokes)) {
         recorder_.reset();
         session_.reset();
         control_.reset(); // before the device that it calls
@@ -234,10 +171,23 @@ void LiveSession::offerAgain() {
                           SceneSwap::SameGeometry, false, driven_);
 }
 
+void LiveSession::pumpSession() {
+    unpumped_ = 0;
+    session_->pump(secondsNow());
+}
+
+/// A tick that takes a goal leaves a state for recordings, of which there is room for 2048 (DrivenObjects).
+void LiveSession::pumpGoals() {
+    constexpr int kMost = 1000;
+    if (++unpumped_ > kMost)
+        pumpSession();
+}
+
 void LiveSession::move(uint64_t object, const ts_pose* pose) {
     const std::lock_guard lock(mutex_);
     requireOpen();
     requireScene();
+    pumpGoals();
     if (pose == nullptr) {
         if (driven_ != nullptr)
             driven_->halt();
@@ -306,7 +256,7 @@ void LiveSession::record(const char* file) {
         return;
     }
     if (running_)
-        session_->pump(secondsNow());
+        pumpSession();
     recorder_->stop();
     if (const std::string problem = recorder_->takeProblem(); !problem.empty())
         throw Refused(TS_INPUT, problem);
@@ -319,7 +269,7 @@ void LiveSession::nameWholly() {
         return;
     for (int i = 0; i < 1000 && running_ && !session_->touching(); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        session_->pump(secondsNow());
+        pumpSession();
     }
     session_->identify(changed_->identity(true));
     hashed_ = true;
@@ -345,7 +295,7 @@ void LiveSession::stop() {
     if (control_ != nullptr)
         control_->stop();
     running_ = false;
-    session_->pump(secondsNow());
+    pumpSession();
 }
 
 ControlLoop& LiveSession::controlLoop() {
@@ -396,10 +346,30 @@ void LiveSession::stateFrom(const ControlLoop::State& control, ts_state& state) 
 }
 
 ts_state LiveSession::state() {
+    ts_state state = stateOf(session_->tick());
+    if (control_ != nullptr)
+        stateFrom(control_->state(), state);
+    return state;
+}
+
+LiveHand& LiveSession::hand(size_t number) {
+    if (number >= hands_.size())
+        refuseArgument("hand", std::to_string(number) + ", and there are " + std::to_string(hands_.size()));
+    return *hands_[number];
+}
+
+ts_state LiveSession::handState(size_t number) {
+    const std::lock_guard lock(mutex_);
+    requireOpen();
+    LiveHand& of = hand(number);
+    requireScene();
+    return number == 0 ? state() : stateOf(of.newest());
+}
+
+ts_state LiveSession::stateOf(const TickRecord& tick) const {
     ts_state state{};
-    const TickRecord& tick = session_->tick();
     const ServoLoop::Counters counters = session_->servo().counters();
-    state.touching = session_->touching() ? 1 : 0;
+    state.touching = session_->scene().number != 0 && tick.root == session_->scene().number ? 1 : 0;
     state.tick = tick.tick;
     state.time = tick.time;
     setVector(state.hip, tick.output.hip);
@@ -420,8 +390,6 @@ ts_state LiveSession::state() {
     state.skipped = counters.skipped;
     state.dropped = counters.droppedRecords;
     state.realtime = running_ && session_->servo().scheduling().policy.starts_with("SCHED_FIFO") ? 1 : 0;
-    if (control_ != nullptr)
-        stateFrom(control_->state(), state);
     return state;
 }
 
@@ -429,7 +397,7 @@ ts_state LiveSession::pump() {
     const std::lock_guard lock(mutex_);
     requireOpen();
     requireScene();
-    session_->pump(secondsNow());
+    pumpSession();
     return state();
 }
 
@@ -465,14 +433,10 @@ void LiveSession::run(double seconds, double rate, Callback callback, void* cont
     requireOpen();
 }
 
-size_t LiveSession::takeKept(const TickArrays& ticks) {
+size_t LiveSession::takeKept(size_t number, const TickArrays& ticks) {
     const std::lock_guard lock(mutex_);
     requireOpen();
-    const size_t count = std::min(kept_.size(), ticks.capacity());
-    for (size_t i = 0; i < count; ++i)
-        ticks.put(i, kept_[i]);
-    kept_.erase(kept_.begin(), kept_.begin() + static_cast<ptrdiff_t>(count));
-    return count;
+    return hand(number).takeKept(ticks);
 }
 
 void LiveSession::closed() {
@@ -486,11 +450,7 @@ void LiveSession::sceneOffered(const OfferedScene& scene) {
 
 void LiveSession::take(const TickRecord& record, const HapticSettings&) {
     recorder_->take(record);
-    if (keep_ == 0)
-        return;
-    if (kept_.size() == keep_)
-        kept_.pop_front();
-    kept_.push_back(rowOf(record.time, record.output, record.stepNs));
+    hands_[record.hand]->take(record, keep_);
 }
 
 void LiveSession::flush(double) {

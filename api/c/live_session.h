@@ -1,39 +1,21 @@
 #pragma once
 
 #include "api/c/changed_materials.h"
+#include "api/c/live_hand.h"
 #include "api/c/tick_arrays.h"
 #include "api/c/touched_scene.h"
-#include "devices/device/mapped_device.h"
-#include "devices/link/linked_device.h"
-#include "devices/plant/hand_impedance.h"
-#include "devices/simulated/simulated_hand.h"
 #include "haptics/recording/servo_recorder.h"
 #include "session/control_loop.h"
 #include "session/session.h"
 
 #include <atomic>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace touchstone::api {
-
-/// A device of the caller's: two functions.
-class CallersDevice final : public Device {
-  public:
-    /// Throws Refused.
-    explicit CallersDevice(const ts_device& device);
-    [[nodiscard]] std::string name() const override { return "own device"; }
-    [[nodiscard]] DeviceLimits limits() const override { return limits_; }
-    [[nodiscard]] DeviceSample sample(double time) noexcept override;
-    void apply(const DeviceCommand& command) noexcept override;
-
-  private:
-    ts_device device_;
-    DeviceLimits limits_;
-};
 
 /// What a ts_session names. Every function may be called from any thread and waits for the others, but for
 /// `run`, which lets them in between two pumps.
@@ -58,7 +40,8 @@ class LiveSession final : public Object, private TickSubscriber {
     [[nodiscard]] ts_state pump();
     using Callback = int (*)(void* context, const ts_state* state);
     void run(double seconds, double rate, Callback callback, void* context);
-    [[nodiscard]] size_t takeKept(const TickArrays& ticks);
+    [[nodiscard]] ts_state handState(size_t hand);
+    [[nodiscard]] size_t takeKept(size_t hand, const TickArrays& ticks);
     void closed() override;
 
   private:
@@ -68,24 +51,22 @@ class LiveSession final : public Object, private TickSubscriber {
 
     void requireOpen() const;
     void requireScene() const;
+    void pumpSession();
+    void pumpGoals();
     void offerAgain();
     void nameWholly();
     void makeSession();
     void enableControl();
     [[nodiscard]] ControlLoop& controlLoop();
     void stateFrom(const ControlLoop::State& control, ts_state& state) const;
-    [[nodiscard]] Device& simulatedHand();
+    [[nodiscard]] LiveHand& hand(size_t number);
     [[nodiscard]] ts_state state();
+    [[nodiscard]] ts_state stateOf(const TickRecord& tick) const;
 
     mutable std::recursive_mutex mutex_;
     double rate_;
     std::optional<ControlConfig> controlled_;
-    std::string stroke_; // of a simulated hand; empty: a device
-    std::unique_ptr<CallersDevice> own_;
-    std::unique_ptr<LinkedDevice> linked_;
-    std::unique_ptr<SimulatedHand> path_;
-    std::unique_ptr<HandImpedance> yielding_;
-    std::unique_ptr<MappedDevice> mapped_;
+    std::vector<std::unique_ptr<LiveHand>> hands_;
     std::unique_ptr<ControlLoop> control_; // null: the servo commands the device
     std::unique_ptr<Session> session_;     // null: no scene yet
     std::optional<ServoRecorder> recorder_;
@@ -93,11 +74,11 @@ class LiveSession final : public Object, private TickSubscriber {
     std::optional<ChangedMaterials> changed_; // of scene_; none: as it says
     bool hashed_ = true;                      // the scene that is touched was offered with its feltHash
     std::shared_ptr<DrivenObjects> driven_;   // of scene_; null: no object was moved
+    int unpumped_ = 0;                        // goals of objects since the last pump
     HapticSettings settings_;
     bool running_ = false, forceOn_ = true;
     std::atomic<bool> closed_{false};
-    size_t keep_;
-    std::deque<TickRow> kept_;
+    size_t keep_; // ticks of each hand
 };
 
 } // namespace touchstone::api

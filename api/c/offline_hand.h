@@ -2,24 +2,27 @@
 
 #include "api/c/tick_arrays.h"
 #include "api/c/touched_scene.h"
-#include "haptics/tick/stepped_hand.h"
+#include "haptics/tick/stepped_hands.h"
 
 #include <memory>
 #include <mutex>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace touchstone::api {
 
-/// What a ts_hand names: a hand that is stepped along paths, one after the other.
+/// What a ts_hand names: hands in one world that are stepped along paths, one after the other.
 class OfflineHand final : public Object {
   public:
-    OfflineHand(std::shared_ptr<TouchedScene> scene, const HapticSettings& settings);
+    /// Throws Refused where there are not 1..kMaxHands.
+    OfflineHand(std::shared_ptr<TouchedScene> scene, const HapticSettings& settings, size_t hands);
 
     /// Throws Refused.
     void set(std::string_view name, std::string_view value);
-    /// Checks the whole path, then touches. Returns the ticks made: fewer than path.count where its progress
-    /// function stopped it. Throws Refused, and then no tick was made.
-    size_t touch(const ts_path& path, const TickArrays& ticks);
+    /// Checks the whole paths, then touches. Returns the ticks made: fewer than their count where the first
+    /// one's progress function stopped it. Throws Refused, and then no tick was made.
+    size_t touch(std::span<const ts_path> paths, std::span<const TickArrays> ticks);
 
   private:
     /// Time and length of tick `i` of a path.
@@ -27,12 +30,14 @@ class OfflineHand final : public Object {
         double time, dt;
     };
     [[nodiscard]] Moment moment(const ts_path& path, size_t i) const noexcept;
-    void check(const ts_path& path) const;
+    int64_t tick(std::span<const ts_path> paths, size_t i, double time, double dt, bool timed) noexcept;
+    void check(const ts_path& path, const std::string& name) const;
+    void check(std::span<const ts_path> paths) const;
 
     std::mutex mutex_;
     std::shared_ptr<TouchedScene> scene_;
     HapticSettings settings_;
-    SteppedHand hand_;
+    SteppedHands hands_;
     // Of the ticks made:
     bool begun_ = false;
     double last_ = 0.0; // s

@@ -12,30 +12,10 @@ namespace touchstone::api {
 
 namespace {
 
-std::string entry(const char* array, size_t i) {
-    return std::string(array) + "[" + std::to_string(i) + "]";
-}
-
 void requireFinite(const float* values, size_t count, const std::string& argument) {
     for (size_t i = 0; i < count; ++i)
         if (!std::isfinite(values[i]))
             refuseArgument(argument + "[" + std::to_string(i) + "]", "is not finite");
-}
-
-/// Structs of a caller's array: the first one's size is the distance to the next.
-template <class T>
-std::vector<T> structsOf(const T* array, size_t count, const char* argument) {
-    std::vector<T> structs;
-    if (count == 0)
-        return structs;
-    const size_t stride = sizeOf(given(array, argument), argument);
-    const auto* at = reinterpret_cast<const unsigned char*>(array);
-    constexpr size_t kMost = 20'000; // as many as the reader of mesh files takes
-    if (count > kMost)
-        refuseArgument(argument, std::to_string(count) + " of them; at most " + std::to_string(kMost));
-    for (size_t i = 0; i < count; ++i, at += stride)
-        structs.push_back(structOf(reinterpret_cast<const T*>(at), entry(argument, i).c_str()));
-    return structs;
 }
 
 void check(const ts_mesh& mesh, const std::string& name, size_t materials) {

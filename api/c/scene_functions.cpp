@@ -11,6 +11,7 @@
 #include "haptics/world/driven_objects.h"
 
 #include <cmath>
+#include <span>
 
 namespace touchstone::api {
 
@@ -118,8 +119,8 @@ ts_number_info infoOf(const HapticNumber& number) {
     return info;
 }
 
-std::shared_ptr<OfflineHand> newHand(ts_scene scene, ts_settings settings) {
-    return std::make_shared<OfflineHand>(take<TouchedScene>(scene, kScene), settingsOf(settings));
+std::shared_ptr<OfflineHand> newHands(ts_scene scene, ts_settings settings, size_t hands = 1) {
+    return std::make_shared<OfflineHand>(take<TouchedScene>(scene, kScene), settingsOf(settings), hands);
 }
 
 [[noreturn]] void cancelled(size_t done, size_t count) {
@@ -127,14 +128,32 @@ std::shared_ptr<OfflineHand> newHand(ts_scene scene, ts_settings settings) {
                                     std::to_string(count) + " ticks");
 }
 
+void touchPaths(OfflineHand& hands, std::span<const ts_path> paths, std::span<const TickArrays> ticks,
+                size_t* done) {
+    const size_t made = hands.touch(paths, ticks);
+    if (done != nullptr)
+        *done = made;
+    if (made < paths.front().count)
+        cancelled(made, paths.front().count);
+}
+
 void touchPath(OfflineHand& hand, const ts_path* path, const ts_ticks* ticks, size_t* done) {
     (void)given(path, "path");
     const ts_path whole = structOf(path, "path");
-    const size_t made = hand.touch(whole, TickArrays(ticks, whole.count));
-    if (done != nullptr)
-        *done = made;
-    if (made < whole.count)
-        cancelled(made, whole.count);
+    const TickArrays arrays(ticks, whole.count);
+    touchPaths(hand, {&whole, 1}, {&arrays, 1}, done);
+}
+
+/// Paths and (where not null) ticks of several hands.
+void touchPaths(OfflineHand& hands, const ts_path* paths, const ts_ticks* ticks, size_t count, size_t* done) {
+    if (count < 1 || count > kMaxHands)
+        refuseArgument("count", "is not within 1 .. " + std::to_string(kMaxHands));
+    const std::vector<ts_path> whole = structsOf(paths, count, "paths");
+    std::vector<TickArrays> arrays;
+    if (ticks != nullptr)
+        for (const ts_ticks& of : structsOf(ticks, count, "ticks"))
+            arrays.emplace_back(&of, whole[arrays.size()].count);
+    touchPaths(hands, whole, arrays, done);
 }
 
 void layPath(const TouchedScene& scene, const StrokeRequest& request, double rate, double* positions,
@@ -265,13 +284,20 @@ ts_status ts_scene_close(ts_scene scene) {
 }
 
 ts_status ts_touch(ts_scene scene, ts_settings settings, const ts_path* path, const ts_ticks* ticks) {
-    return call([&] { touchPath(*newHand(scene, settings), path, ticks, nullptr); });
+    return call([&] { touchPath(*newHands(scene, settings), path, ticks, nullptr); });
 }
 
 ts_status ts_hand_create(ts_scene scene, ts_settings settings, ts_hand* hand) {
     return call([&] {
         (void)given(hand, "hand");
-        give(newHand(scene, settings), hand);
+        give(newHands(scene, settings), hand);
+    });
+}
+
+ts_status ts_hands_create(ts_scene scene, ts_settings settings, size_t count, ts_hand* hands) {
+    return call([&] {
+        (void)given(hands, "hands");
+        give(newHands(scene, settings, count), hands);
     });
 }
 
@@ -281,6 +307,11 @@ ts_status ts_hand_set(ts_hand hand, const char* name, const char* value) {
 
 ts_status ts_hand_touch(ts_hand hand, const ts_path* path, const ts_ticks* ticks, size_t* done) {
     return call([&] { touchPath(*take<OfflineHand>(hand, "hand"), path, ticks, done); });
+}
+
+ts_status ts_hands_touch(ts_hand hands, const ts_path* paths, const ts_ticks* ticks, size_t count,
+                         size_t* done) {
+    return call([&] { touchPaths(*take<OfflineHand>(hands, "hands"), paths, ticks, count, done); });
 }
 
 ts_status ts_hand_close(ts_hand hand) {

@@ -88,16 +88,24 @@ ts_status ts_session_pump(ts_session session, ts_state* state) {
     return call([&] { giveStruct(live(session)->pump(), state, "state"); });
 }
 
+ts_status ts_session_hand(ts_session session, size_t hand, ts_state* state) {
+    return call([&] { giveStruct(live(session)->handState(hand), state, "state"); });
+}
+
 ts_status ts_session_run(ts_session session, double seconds, double rate,
                          int (*callback)(void* context, const ts_state* state), void* context) {
     return call([&] { live(session)->run(seconds, rate, callback, context); });
 }
 
 ts_status ts_session_take(ts_session session, const ts_ticks* ticks, size_t* count) {
+    return ts_session_take_hand(session, 0, ticks, count);
+}
+
+ts_status ts_session_take_hand(ts_session session, size_t hand, const ts_ticks* ticks, size_t* count) {
     return call([&] {
         (void)given(count, "count");
         (void)given(ticks, "ticks");
-        *count = live(session)->takeKept(TickArrays(ticks, 0));
+        *count = live(session)->takeKept(hand, TickArrays(ticks, 0));
     });
 }
 

@@ -8,8 +8,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -237,38 +240,52 @@ class Scene {
 
 class Hand {
   public:
-    Hand(const Scene& scene, const std::map<std::string, std::string>& settings) {
+    Hand(const Scene& scene, const std::map<std::string, std::string>& settings, size_t hands) {
         const Settings named(settings);
         const py::gil_scoped_release released;
-        ts::check(ts_hand_create(scene.get(), named.get(), handle_.out()));
+        ts::check(ts_hands_create(scene.get(), named.get(), hands, handle_.out()));
     }
     void set(const std::string& name, const std::string& value) {
         const py::gil_scoped_release released;
         ts::check(ts_hand_set(handle_.get(), name.c_str(), value.c_str()));
     }
-    py::dict touch(const py::object& positions, const py::object& times, double rate) {
-        const Array<double> places = rows<double>(positions, "positions", 3);
+    /// `positions`: an array a hand. Returns the ticks of each.
+    py::list touch(const std::vector<py::object>& positions, const py::object& times, double rate) {
+        std::vector<Array<double>> places;
+        for (const py::object& of : positions)
+            places.push_back(rows<double>(of, "positions", 3));
         std::optional<Array<double>> moments;
         if (!times.is_none())
             moments = rows<double>(times, "times", 0);
-        if (moments && moments->shape(0) != places.shape(0))
-            refuse("times", "has " + std::to_string(moments->shape(0)) + " entries, and positions " +
-                                std::to_string(places.shape(0)) + " rows");
-        ts_path path = TS_STRUCT(ts_path);
-        path.positions = places.data();
-        path.count = static_cast<size_t>(places.shape(0));
-        path.times = moments ? moments->data() : nullptr;
-        path.rate = rate;
-        path.progress = goesOn;
-        const Ticks ticks(path.count, false);
+        std::vector<ts_path> paths;
+        std::vector<Ticks> ticks;
+        std::vector<ts_ticks> arrays;
+        for (const Array<double>& of : places) {
+            if (moments && moments->shape(0) != of.shape(0))
+                refuse("times", "has " + std::to_string(moments->shape(0)) + " entries, and positions " +
+                                    std::to_string(of.shape(0)) + " rows");
+            ts_path path = TS_STRUCT(ts_path);
+            path.positions = of.data();
+            path.count = static_cast<size_t>(of.shape(0));
+            path.times = moments && paths.empty() ? moments->data() : nullptr;
+            path.rate = rate;
+            path.progress = goesOn;
+            paths.push_back(path);
+            arrays.push_back(*ticks.emplace_back(path.count, false).get());
+        }
         ts_status status;
         {
             const py::gil_scoped_release released;
-            status = ts_hand_touch(handle_.get(), &path, ticks.get(), nullptr);
+            status = paths.size() == 1 // whose messages name no hand
+                         ? ts_hand_touch(handle_.get(), paths.data(), arrays.data(), nullptr)
+                         : ts_hands_touch(handle_.get(), paths.data(), arrays.data(), paths.size(), nullptr);
         }
         throwIfPythonFailed();
         ts::check(status);
-        return ticks.dict(path.count);
+        py::list all;
+        for (size_t hand = 0; hand < ticks.size(); ++hand)
+            all.append(ticks[hand].dict(paths[hand].count));
+        return all;
     }
     void close() { handle_.close(); }
 
@@ -278,29 +295,45 @@ class Hand {
 
 class Session {
   public:
-    Session(const std::string& device, double rate, size_t keep, double control) {
+    /// `hands`: of each a device's name, or two Python functions.
+    Session(const py::list& hands, double deviceRate, double maxForce, double staleAge, double rate,
+            size_t keep, double control) {
+        std::vector<std::string> names;
+        std::vector<ts_device> own;
+        names.reserve(hands.size());
+        own.reserve(hands.size());
+        std::vector<ts_other_hand> all;
+        for (const py::handle& hand : hands) {
+            ts_other_hand flat = TS_STRUCT(ts_other_hand);
+            if (py::isinstance<py::str>(hand)) {
+                flat.device = names.emplace_back(hand.cast<std::string>()).c_str();
+            } else {
+                const auto functions = hand.cast<std::pair<py::object, py::object>>();
+                devices_.push_back(std::make_unique<touchstone::python::PythonDevice>(
+                    functions.first, functions.second, deviceRate));
+                own.push_back(devices_.back()->device());
+                own.back().max_force = maxForce;
+                own.back().stale_age = staleAge;
+                flat.own = &own.back();
+            }
+            all.push_back(flat);
+        }
+        if (all.empty())
+            refuse("device", "names no hand");
         ts_session_options options = TS_STRUCT(ts_session_options);
-        options.device = device.c_str();
+        options.device = all.front().device;
+        options.own = all.front().own;
+        options.others = all.data() + 1;
+        options.other_count = all.size() - 1;
         options.rate = rate;
         options.keep = keep;
         options.control = control;
-        const py::gil_scoped_release released;
-        ts::check(ts_session_create(&options, handle_.out()));
-    }
-    /// A device of two Python functions.
-    Session(const py::object& position, const py::object& force, double deviceRate, double maxForce,
-            double staleAge, double rate, size_t keep, double control)
-        : device_(std::make_unique<touchstone::python::PythonDevice>(position, force, deviceRate)) {
-        ts_device device = device_->device();
-        device.max_force = maxForce;
-        device.stale_age = staleAge;
-        ts_session_options options = TS_STRUCT(ts_session_options);
-        options.own = &device;
-        options.rate = rate;
-        options.keep = keep;
-        options.control = control;
-        ts::check(ts_session_create(&options, handle_.out()));
-        device_->start();
+        {
+            const py::gil_scoped_release released;
+            ts::check(ts_session_create(&options, handle_.out()));
+        }
+        for (const auto& device : devices_)
+            device->start();
     }
     /// The servo ends before the device that it calls.
     ~Session() {
@@ -319,7 +352,7 @@ class Session {
         return state;
     }
     void run(double seconds, const py::object& callback, double rate) {
-        Callback made{callback, device_.get(), {}};
+        Callback made{callback, this, {}};
         ts_status status;
         {
             const py::gil_scoped_release released;
@@ -360,10 +393,15 @@ class Session {
             std::copy(plane.begin(), plane.end(), goal.planes[goal.plane_count++]);
         call([&](ts_session session) { return ts_session_goal(session, &goal); });
     }
-    py::dict take(size_t most) {
+    ts_state hand(size_t number) {
+        ts_state state = TS_STRUCT(ts_state);
+        call([&](ts_session session) { return ts_session_hand(session, number, &state); });
+        return state;
+    }
+    py::dict take(size_t most, size_t hand) {
         const Ticks ticks(most, false);
         size_t count = 0;
-        call([&](ts_session session) { return ts_session_take(session, ticks.get(), &count); });
+        call([&](ts_session session) { return ts_session_take_hand(session, hand, ticks.get(), &count); });
         return ticks.dict(count);
     }
     [[nodiscard]] ts_session get() const { return handle_.get(); }
@@ -372,19 +410,22 @@ class Session {
             const py::gil_scoped_release released;
             handle_.close();
         }
-        if (device_ != nullptr)
-            device_->stop();
+        for (const auto& device : devices_)
+            device->stop();
         rethrowDevice();
     }
 
   private:
     void rethrowDevice() {
-        if (device_ != nullptr)
-            device_->rethrow();
+        for (const auto& device : devices_)
+            device->rethrow();
+    }
+    [[nodiscard]] bool deviceFailed() const {
+        return std::ranges::any_of(devices_, [](const auto& device) { return device->failed(); });
     }
     struct Callback {
         py::object function;
-        const touchstone::python::PythonDevice* device; ///< or null
+        const Session* session;
         std::exception_ptr thrown;
         static int call(void* context, const ts_state* state) noexcept {
             const py::gil_scoped_acquire gil;
@@ -392,7 +433,7 @@ class Session {
             try {
                 if (PyErr_CheckSignals() != 0)
                     throw py::error_already_set();
-                if (self.device != nullptr && self.device->failed())
+                if (self.session->deviceFailed())
                     return 1; // run throws what it threw
                 if (self.function.is_none())
                     return 0;
@@ -404,7 +445,7 @@ class Session {
             }
         }
     };
-    std::unique_ptr<touchstone::python::PythonDevice> device_;
+    std::vector<std::unique_ptr<touchstone::python::PythonDevice>> devices_;
     ts::Handle<ts_session, ts_session_close> handle_;
 };
 
@@ -465,8 +506,7 @@ void bindSession(py::module_& m) {
         .def_readonly("skipped", &ts_state::skipped)
         .def_readonly("dropped", &ts_state::dropped);
     py::class_<Session>(m, "Session")
-        .def(py::init<const std::string&, double, size_t, double>())
-        .def(py::init<const py::object&, const py::object&, double, double, double, double, size_t, double>())
+        .def(py::init<const py::list&, double, double, double, double, size_t, double>())
         .def("material",
              [](Session& s, uint64_t material, const std::string& name, double value) {
                  s.call([&](ts_session session) {
@@ -505,6 +545,7 @@ void bindSession(py::module_& m) {
         .def("stop", [](Session& s) { s.call(ts_session_stop); })
         .def("pump", &Session::pump)
         .def("run", &Session::run)
+        .def("hand", &Session::hand)
         .def("take", &Session::take)
         .def("close", &Session::close);
 }
@@ -544,7 +585,7 @@ PYBIND11_MODULE(_touchstone, m) {
         .def("triangles", &Scene::triangles)
         .def("close", &Scene::close);
     py::class_<Hand>(m, "Hand")
-        .def(py::init<const Scene&, const std::map<std::string, std::string>&>())
+        .def(py::init<const Scene&, const std::map<std::string, std::string>&, size_t>())
         .def("set", &Hand::set)
         .def("touch", &Hand::touch)
         .def("close", &Hand::close);

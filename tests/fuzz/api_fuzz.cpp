@@ -49,7 +49,7 @@ class Caller {
     explicit Caller(uint64_t seed) : random_(seed) {}
 
     void call() {
-        switch (random_() % 18) {
+        switch (random_() % 25) {
         case 0:
             createScene();
             break;
@@ -115,6 +115,40 @@ class Caller {
         case 16:
             take();
             break;
+        case 17:
+            touchSeveral();
+            break;
+        case 18:
+            move();
+            break;
+        case 19: {
+            ts_goal goal = TS_STRUCT(ts_goal);
+            goal.size = size(goal.size);
+            goal.touching = static_cast<int>(random_() % 2);
+            goal.stiffness = number();
+            goal.damping = random_() % 2 ? 0.0 : number();
+            goal.plane_count = random_() % 8 ? random_() % 4 : random_();
+            for (double(&plane)[3] : goal.planes)
+                plane[random_() % 3] = random_() % 4 ? 1.0 : number();
+            goal.proxy[random_() % 3] = random_() % 2 ? 0.01 : number();
+            check(ts_session_goal(any<ts_session>(), pick(&goal)));
+            break;
+        }
+        case 20:
+            check(ts_session_render(any<ts_session>(), static_cast<int>(random_() % 2)));
+            break;
+        case 21:
+            check(ts_session_material(any<ts_session>(), random_() % 3, materialWord(), number()));
+            break;
+        case 22: {
+            ts_state state = TS_STRUCT(ts_state);
+            state.size = size(state.size);
+            check(ts_session_hand(any<ts_session>(), random_() % 5, pick(&state)));
+            break;
+        }
+        case 23:
+            ask();
+            break;
         default: {
             ts_scene_info info = TS_STRUCT(ts_scene_info);
             info.size = size(info.size);
@@ -148,6 +182,11 @@ class Caller {
         static const char* const kWords[]{"stiffness", "friction", "off",          "zilles",       "100",
                                           "-1",        "nan",      "contact",      "rays",         "sweep",
                                           "mm\xff",    "",         "forceEnabled", "neighbourhood"};
+        return random_() % 20 == 0 ? nullptr : kWords[random_() % std::size(kWords)];
+    }
+    const char* materialWord() {
+        static const char* const kWords[]{"stiffness", "damping", "staticFriction", "dynamicFriction",
+                                          "hardness"};
         return random_() % 20 == 0 ? nullptr : kWords[random_() % std::size(kWords)];
     }
     void check(ts_status status) {
@@ -208,6 +247,83 @@ class Caller {
         else
             check(ts_hand_touch(any<ts_hand>(), pick(&path), pick(&ticks), pick(&done)));
     }
+    /// Hands in one world along the same path.
+    void touchSeveral() {
+        ts_hand hands = nullptr;
+        const size_t count = random_() % 6;
+        check(ts_hands_create(any<ts_scene>(), any<ts_settings>(), count, &hands));
+        handles.add(hands);
+        const size_t rows = random_() % 50;
+        std::vector<double> positions(3 * rows + 3, 0.001);
+        positions[random_() % positions.size()] = random_() % 8 ? 0.02 : number();
+        std::vector<double> force(3 * rows + 1);
+        ts_path paths[6];
+        ts_ticks ticks[6];
+        for (size_t i = 0; i < 6; ++i) {
+            paths[i] = TS_STRUCT(ts_path);
+            paths[i].positions = pick(positions.data());
+            paths[i].count = random_() % 20 ? rows : rows / 2;
+            ticks[i] = TS_STRUCT(ts_ticks);
+            ticks[i].force = force.data();
+            ticks[i].capacity = random_() % 20 ? rows : rows / 2;
+        }
+        size_t done = 0;
+        check(ts_hands_touch(random_() % 4 ? hands : any<ts_hand>(), pick(paths), pick(ticks),
+                             random_() % 8 ? count : random_() % 6, pick(&done)));
+    }
+    /// Objects, from any thread, whatever becomes of the session.
+    void move() {
+        ts_pose pose = TS_STRUCT(ts_pose);
+        pose.size = size(pose.size);
+        pose.position[random_() % 3] = random_() % 2 ? 0.01 : number();
+        pose.orientation[random_() % 4] = random_() % 2 ? 1.0 : number();
+        pose.speed = random_() % 2 ? 0.1 : number();
+        pose.turn = random_() % 2 ? 0.0 : number();
+        const auto session = any<ts_session>();
+        check(ts_session_move(session, random_() % 4 ? 0 : random_(), pick(&pose)));
+        check(ts_session_pose(session, random_() % 2, pick(&pose)));
+        if (random_() % 4 == 0)
+            check(ts_session_halt(session));
+    }
+    /// What a scene knows of itself.
+    void ask() {
+        const auto scene = any<ts_scene>();
+        ts_object_info object = TS_STRUCT(ts_object_info);
+        object.size = size(object.size);
+        check(ts_scene_object(scene, random_() % 3, pick(&object)));
+        double value = 0.0;
+        check(ts_scene_material_number(scene, random_() % 3, materialWord(), pick(&value)));
+        float corners[18];
+        size_t count = 0;
+        check(ts_scene_triangles(scene, pick(corners), random_() % 3, pick(&count)));
+        char text[8];
+        check(ts_scene_material_name(scene, random_() % 2, pick(text), random_() % 9, pick(&count)));
+        ts_number_info info = TS_STRUCT(ts_number_info);
+        info.size = size(info.size);
+        check(ts_material_number_get_info(random_() % 40, pick(&info)));
+        double positions[30];
+        check(ts_stroke(scene, random_() % 2 ? "circle" : word(), 0.0, 0.0, random_() % 2 ? 100.0 : number(),
+                        pick(positions), random_() % 11, pick(&count)));
+    }
+    /// A device of two functions, some of whose numbers are none.
+    ts_device device() {
+        ts_device device = TS_STRUCT(ts_device);
+        device.size = size(device.size);
+        device.sample = [](void*, double time, ts_reading* reading) {
+            reading->position[1] = 0.1 * std::sin(time);
+            reading->position[0] = std::fmod(time, 1.0) < 0.01 ? NAN : 0.0;
+            reading->valid = std::fmod(time, 0.5) < 0.4 ? 1 : 0;
+        };
+        device.apply = [](void*, const double force[3]) {
+            if (!(std::hypot(force[0], force[1], force[2]) <= 8.5 + 1e-9))
+                std::abort();
+        };
+        if (random_() % 8 == 0)
+            device.apply = nullptr;
+        device.max_force = random_() % 4 ? 0.0 : random_() % 2 ? 1.0 : number() > 8.5 ? NAN : 1.0;
+        device.stale_age = random_() % 4 ? 0.0 : number();
+        return device;
+    }
     void createSession() {
         // A servo each, above everything else on the machine: a few are enough.
         static std::atomic<int> made{0};
@@ -218,6 +334,23 @@ class Caller {
         options.size = size(options.size);
         options.rate = random_() % 4 ? 0.0 : number();
         options.device = random_() % 4 ? "stroke" : word();
+        const ts_device own = device();
+        if (random_() % 2) {
+            options.device = nullptr;
+            options.own = &own;
+        }
+        ts_other_hand others[4];
+        for (ts_other_hand& other : others) {
+            other = TS_STRUCT(ts_other_hand);
+            other.device = random_() % 8 ? "stroke" : word();
+            if (random_() % 4 == 0) {
+                other.device = nullptr;
+                other.own = &own;
+            }
+        }
+        options.others = pick(others);
+        options.other_count = random_() % 2 ? 0 : random_() % 5;
+        options.control = random_() % 4 ? 0.0 : random_() % 2 ? 1000.0 : number();
         options.keep = random_() % 4 ? 100 : random_();
         ts_session session = nullptr;
         check(ts_session_create(&options, &session));
@@ -240,6 +373,7 @@ class Caller {
         ticks.time = time;
         size_t count = 0;
         check(ts_session_take(any<ts_session>(), pick(&ticks), pick(&count)));
+        check(ts_session_take_hand(any<ts_session>(), random_() % 5, pick(&ticks), pick(&count)));
         check(ts_recording_read(any<ts_recording>(), pick(&ticks), &count));
     }
     void close() {

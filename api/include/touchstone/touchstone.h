@@ -223,6 +223,14 @@ TS_API ts_status ts_hand_set(ts_hand hand, const char* name, const char* value);
 TS_API ts_status ts_hand_touch(ts_hand hand, const ts_path* path, const ts_ticks* ticks, size_t* done);
 TS_API ts_status ts_hand_close(ts_hand hand);
 
+/* Hands in one world, 1 to 4: what one of them moves or wears off the others feel. A ts_hand of one is that
+ * of ts_hand_create; ts_hand_set and ts_hand_close are for all. */
+TS_API ts_status ts_hands_create(ts_scene scene, ts_settings settings, size_t count, ts_hand* hands);
+/* As ts_hand_touch, with a path a hand, and (unless NULL) a ts_ticks each: `count` of them, as many as there
+ * are hands. The paths have one count; times, rate and progress of the first are those of all. */
+TS_API ts_status ts_hands_touch(ts_hand hands, const ts_path* paths, const ts_ticks* ticks, size_t count,
+                                size_t* done);
+
 /* The positions of a simulated hand that strokes the scene, `rate` a second for one period of the stroke
  * (`touchstone touch
  * --stroke`): the first `capacity` rows of 3 in `positions` (may be NULL), all of them counted in `rows`.
@@ -256,6 +264,13 @@ typedef struct ts_device {
     double stale_age;                                    /* s, after which a reading counts as lost */
 } ts_device;
 
+/* A further hand of a session: `device` or `own`, as in ts_session_options. */
+typedef struct ts_other_hand {
+    size_t size;
+    const char* device;
+    const ts_device* own;
+} ts_other_hand;
+
 typedef struct ts_session_options {
     size_t size;
     double rate; /* Hz, 100 to 4000; 0: 1000 */
@@ -269,6 +284,10 @@ typedef struct ts_session_options {
     double control;
     double contact_power; /* W that the servo's contact may add to the loop's spring; 0: 1 */
     double goal_power;    /* W that ts_session_goal may */
+    /* Hands 1 and on, at most 3: one servo drives all of them, each within its device's limits. None with a
+     * control loop. Simulated hands begin their strokes one after the other. */
+    const ts_other_hand* others;
+    size_t other_count;
 } ts_session_options;
 
 /* Where an object is to go, or is. Workspace. */
@@ -325,7 +344,7 @@ TS_API ts_status ts_session_material(ts_session session, uint64_t material, cons
 /* From the next tick on the object goes to the pose on the straight way, no faster than the pose says. The
  * hand is pushed along as by an animated object, within the limits of the device. Up to 16 objects of a
  * scene, none that its animation or physics moves. The next ts_session_touch begins with the scene at rest. A
- * recording has the motion. */
+ * recording has the motion: now and then the call reads what the servo has done, as ts_session_pump does. */
 TS_API ts_status ts_session_move(ts_session session, uint64_t object, const ts_pose* pose);
 /* All objects that were moved stop where they are. */
 TS_API ts_status ts_session_halt(ts_session session);
@@ -346,6 +365,8 @@ TS_API ts_status ts_session_start(ts_session session);
 TS_API ts_status ts_session_stop(ts_session session);
 /* Reads what the servo has done: at least every ten seconds while it runs. */
 TS_API ts_status ts_session_pump(ts_session session, ts_state* state);
+/* The newest tick of a hand (0 is the first) at the last pump. */
+TS_API ts_status ts_session_hand(ts_session session, size_t hand, ts_state* state);
 /* Starts if need be, and calls `callback` `rate` times a second (0: 60) on this thread for `seconds`; other
  * than 0 ends the call with TS_OK. The callback may use the session. Stops again if it has started. */
 TS_API ts_status ts_session_run(ts_session session, double seconds, double rate,
@@ -353,6 +374,8 @@ TS_API ts_status ts_session_run(ts_session session, double seconds, double rate,
 /* The kept ticks since the last call, the oldest first, at most ticks->capacity; `count` gets their number.
  */
 TS_API ts_status ts_session_take(ts_session session, const ts_ticks* ticks, size_t* count);
+/* The same of a hand; `keep` ticks of each are kept. */
+TS_API ts_status ts_session_take_hand(ts_session session, size_t hand, const ts_ticks* ticks, size_t* count);
 /* Stops it. A thread in ts_session_run returns with TS_CLOSED. */
 TS_API ts_status ts_session_close(ts_session session);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <stdexcept>
@@ -227,6 +228,29 @@ struct Ticks {
     return result;
 }
 
+/// The same with several hands in one world, a path each of equal length.
+[[nodiscard]] inline std::vector<Ticks> touch(const Scene& scene,
+                                              const std::vector<std::vector<Vector>>& paths,
+                                              double rate = 1000.0, const Settings* settings = nullptr) {
+    Handle<ts_hand, ts_hand_close> hands;
+    check(ts_hands_create(scene.get(), settings != nullptr ? settings->get() : nullptr, paths.size(),
+                          hands.out()));
+    std::vector<Ticks> results;
+    std::vector<ts_path> flat;
+    std::vector<ts_ticks> arrays;
+    results.reserve(paths.size());
+    for (const std::vector<Vector>& positions : paths) {
+        ts_path path = TS_STRUCT(ts_path);
+        path.positions = positions.empty() ? nullptr : positions.data()->data();
+        path.count = positions.size();
+        path.rate = rate;
+        flat.push_back(path);
+        arrays.push_back(results.emplace_back(positions.size()).arrays());
+    }
+    check(ts_hands_touch(hands.get(), flat.data(), arrays.data(), flat.size(), nullptr));
+    return results;
+}
+
 /// Real time. `device`: "stroke", "stroke:NAME", or what `touchstone run --device` takes.
 class Session {
   public:
@@ -276,6 +300,12 @@ class Session {
         check(ts_session_pump(handle_.get(), &state));
         return state;
     }
+    /// Of a further hand, at the last `pump` (ts_session_options::others).
+    [[nodiscard]] ts_state hand(std::size_t hand) const {
+        ts_state state = TS_STRUCT(ts_state);
+        check(ts_session_hand(handle_.get(), hand, &state));
+        return state;
+    }
     /// `callback` gets every picture's state and returns false to end; what it throws comes out of `run`.
     void run(double seconds, const std::function<bool(const ts_state&)>& callback, double rate = 60.0) {
         Call call{&callback, nullptr};
@@ -284,6 +314,7 @@ class Session {
             std::rethrow_exception(call.thrown);
         check(status);
     }
+    [[nodiscard]] ts_session get() const noexcept { return handle_.get(); }
     void close() { handle_.close(); }
 
   private:

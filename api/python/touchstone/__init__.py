@@ -16,6 +16,8 @@ import atexit
 import os
 import weakref
 
+import numpy
+
 from . import _touchstone
 from ._touchstone import Material, SceneInfo, State
 
@@ -150,10 +152,12 @@ class Scene:
 
 
 class Hand:
-    """A hand that touches offline, path after path; deterministic."""
+    """A hand that touches offline, path after path; deterministic. `hands`: several in one world (1 to 4): what one moves the others feel."""
 
-    def __init__(self, scene, settings=None):
-        self._hand = _touchstone.Hand(scene._scene, _texts(settings))
+    def __init__(self, scene, settings=None, *, hands=1):
+        if not 1 <= hands <= 4:
+            raise ArgumentError("hands: is not within 1 .. 4")
+        self._hand, self._hands = _touchstone.Hand(scene._scene, _texts(settings), hands), hands
 
     def set(self, name, value):
         """For the next tick; names and values as `touchstone --set`."""
@@ -161,16 +165,23 @@ class Hand:
 
     def touch(self, positions, times=None, *, rate=1000.0):
         """Touches along positions (N, 3) m; `times` (N,) s, increasing, or `rate` Hz. Goes on where the last path ended. Ctrl+C
-        stops it."""
-        return Ticks(self._hand.touch(positions, times, rate))
+        stops it. Several hands take a list of such positions, equally many each, and give a list of Ticks."""
+        if self._hands == 1:
+            return Ticks(self._hand.touch([positions], times, rate)[0])
+        if len(positions) != self._hands:
+            raise ArgumentError(f"positions: has {len(positions)} paths, and there are {self._hands} hands")
+        return [Ticks(arrays) for arrays in self._hand.touch(list(positions), times, rate)]
 
     def close(self):
         self._hand.close()
 
 
 def touch(scene, positions, times=None, *, rate=1000.0, settings=None):
-    """Touches `scene` along positions (N, 3), from the beginning: what `touchstone touch` computes, to the last bit."""
-    return Hand(scene, settings).touch(positions, times, rate=rate)
+    """Touches `scene` along positions (N, 3), from the beginning: what `touchstone touch` computes, to the last bit. Two to four hands in one
+    world: a list of such positions, or an array (hands, N, 3); gives a list of Ticks."""
+    lists = isinstance(positions, (list, tuple)) and len(positions) > 0 and numpy.ndim(positions[0]) == 2
+    several = lists or getattr(positions, "ndim", 0) == 3
+    return Hand(scene, settings, hands=len(positions) if several else 1).touch(positions, times, rate=rate)
 
 
 _own_devices = weakref.WeakSet()
@@ -193,21 +204,26 @@ class Session:
     A device of your own is two functions: `position()` returns three numbers (m, device frame) or None where it is unknown,
     `force(newtons)` gets an array of 3. A thread calls them `device_rate` times a second; the servo waits for neither, and where no
     position comes for `stale_age` s (0: the device's usual one) the force fades. `max_force`: N, 0 for the usual one. What they throw
-    ends them and comes out of `pump`, `run` or `close`."""
+    ends them and comes out of `pump`, `run` or `close`.
 
-    def __init__(self, device=None, *, position=None, force=None, device_rate=1000.0, max_force=0.0, stale_age=0.0, rate=1000.0, keep=0,
-                 control=0.0):
+    `others`: up to three further hands in the same world, each a device's name or a pair of such functions."""
+
+    def __init__(self, device=None, *, position=None, force=None, others=(), device_rate=1000.0, max_force=0.0, stale_age=0.0, rate=1000.0,
+                 keep=0, control=0.0):
         if (position is None) != (force is None) or (position is not None and device is not None):
             raise ArgumentError("device: give either a device, or both `position` and `force`")
-        if position is None:
-            self._session = _touchstone.Session("stroke" if device is None else device, rate, keep, control)
-            return
-        if not (callable(position) and callable(force)):
-            raise ArgumentError("position: it and `force` have to be functions")
-        if not 1.0 <= device_rate <= 10_000.0:
+        first = (position, force) if position is not None else "stroke" if device is None else device
+        hands = [first, *([others] if isinstance(others, str) else others)]
+        own = [hand for hand in hands if not isinstance(hand, str)]
+        for hand in own:
+            if not (isinstance(hand, (tuple, list)) and len(hand) == 2 and all(map(callable, hand))):
+                raise ArgumentError("position: it and `force` have to be functions" if hand is first else
+                                    "others: has to hold devices' names or pairs of functions")
+        if own and not 1.0 <= device_rate <= 10_000.0:
             raise ArgumentError("device_rate: is not within 1 .. 10000 Hz")
-        self._session = _touchstone.Session(position, force, device_rate, max_force, stale_age, rate, keep, control)
-        _own_devices.add(self)
+        self._session = _touchstone.Session(hands, device_rate, max_force, stale_age, rate, keep, control)
+        if own:
+            _own_devices.add(self)
 
     def __enter__(self):
         return self
@@ -272,9 +288,13 @@ class Session:
         it runs already."""
         self._session.run(seconds, callback, rate)
 
-    def take(self, most=1_000_000):
-        """The kept ticks since the last call, as Ticks."""
-        return Ticks(self._session.take(most))
+    def hand(self, number):
+        """The newest State of a hand (0 is the first) at the last `pump` or callback."""
+        return self._session.hand(number)
+
+    def take(self, most=1_000_000, *, hand=0):
+        """The kept ticks of a hand since the last call, as Ticks."""
+        return Ticks(self._session.take(most, hand))
 
     def close(self):
         self._session.close()

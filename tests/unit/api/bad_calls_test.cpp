@@ -218,6 +218,83 @@ TEST(BadCalls, OfASession) {
     expectRefused(ts_session_start(session), TS_CLOSED, "session");
 }
 
+TEST(BadCalls, OfSeveralHands) {
+    const ts::Scene scene({floorMesh()});
+    ts_hand hands = nullptr;
+    expectRefused(ts_hands_create(scene.get(), nullptr, 0, &hands), TS_ARGUMENT, "count");
+    expectRefused(ts_hands_create(scene.get(), nullptr, 5, &hands), TS_ARGUMENT, "count");
+    expectRefused(ts_hands_create(scene.get(), nullptr, 2, nullptr), TS_ARGUMENT, "hands");
+    ts::check(ts_hands_create(scene.get(), nullptr, 2, &hands));
+    const std::vector<ts::Vector> positions = press(3);
+    const double times[3]{0.0, 1.0, 2.0};
+    ts_path paths[2]{TS_STRUCT(ts_path), TS_STRUCT(ts_path)};
+    for (ts_path& path : paths) {
+        path.positions = positions.front().data();
+        path.count = 3;
+    }
+    expectRefused(ts_hand_touch(hands, paths, nullptr, nullptr), TS_ARGUMENT, "ts_hands_touch");
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 1, nullptr), TS_ARGUMENT, "count");
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 5, nullptr), TS_ARGUMENT, "count");
+    expectRefused(ts_hands_touch(hands, nullptr, nullptr, 2, nullptr), TS_ARGUMENT, "paths");
+    paths[1].count = 2;
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 2, nullptr), TS_ARGUMENT, "paths[1].count");
+    paths[1].count = 3;
+    paths[1].times = times;
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 2, nullptr), TS_ARGUMENT, "paths[1].times");
+    paths[1].times = nullptr;
+    paths[1].positions = nullptr;
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 2, nullptr), TS_ARGUMENT, "paths[1].positions");
+    paths[1].positions = paths[0].positions;
+    double force[6];
+    ts_ticks ticks[2]{TS_STRUCT(ts_ticks), TS_STRUCT(ts_ticks)};
+    ticks[1].force = force;
+    ticks[1].capacity = 2;
+    expectRefused(ts_hands_touch(hands, paths, ticks, 2, nullptr), TS_ARGUMENT, "capacity");
+    paths[0].times = times;
+    size_t done = 0;
+    ts::check(ts_hands_touch(hands, paths, nullptr, 2, &done));
+    EXPECT_EQ(done, 3u);
+    EXPECT_EQ(ts_hand_close(hands), TS_OK);
+    expectRefused(ts_hands_touch(hands, paths, nullptr, 2, nullptr), TS_CLOSED, "hand");
+}
+
+TEST(BadCalls, OfASessionOfSeveralHands) {
+    ts_session session = nullptr;
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.device = "stroke";
+    options.other_count = 1;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.others");
+    ts_other_hand others[4]{TS_STRUCT(ts_other_hand), TS_STRUCT(ts_other_hand), TS_STRUCT(ts_other_hand),
+                            TS_STRUCT(ts_other_hand)};
+    options.others = others;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.others[0].device");
+    others[0].device = "stroke:nothing";
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.others[0].device");
+    others[0].device = "stroke";
+    options.other_count = 4;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.other_count");
+    options.other_count = 1;
+    options.control = 1000.0;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "control loop");
+    options.control = 0.0;
+    const ts_device own = TS_STRUCT(ts_device);
+    others[0].own = &own;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.others[0].device");
+    others[0].device = nullptr;
+    expectRefused(ts_session_create(&options, &session), TS_ARGUMENT, "options.others[0].own.sample");
+    others[0] = TS_STRUCT(ts_other_hand);
+    others[0].device = "stroke";
+    ts::check(ts_session_create(&options, &session));
+    ts_state state = TS_STRUCT(ts_state);
+    expectRefused(ts_session_hand(session, 0, &state), TS_STATE, "ts_session_touch");
+    expectRefused(ts_session_hand(session, 2, &state), TS_ARGUMENT, "there are 2");
+    expectRefused(ts_session_hand(session, 0, nullptr), TS_STATE, "ts_session_touch");
+    ts_ticks ticks = TS_STRUCT(ts_ticks);
+    size_t count = 0;
+    expectRefused(ts_session_take_hand(session, 2, &ticks, &count), TS_ARGUMENT, "there are 2");
+    EXPECT_EQ(ts_session_close(session), TS_OK);
+}
+
 /// Threads share a hand, and scenes close under them.
 TEST(BadCalls, FromManyThreadsAtOnce) {
     ts::Scene scene({floorMesh()});

@@ -101,6 +101,53 @@ TEST(LiveSession, GivesTheForceToAnOwnDeviceWithinItsLimits) {
     EXPECT_GT(pressing.samples, 100);
 }
 
+/// Two devices and a simulated hand at one servo, each within its own limits.
+TEST(LiveSession, DrivesSeveralHands) {
+    Pressing first, second;
+    {
+        const ts_device devices[2]{first.device(), [&] {
+                                       ts_device device = second.device();
+                                       device.max_force = 0.5;
+                                       return device;
+                                   }()};
+        ts_other_hand others[2]{TS_STRUCT(ts_other_hand), TS_STRUCT(ts_other_hand)};
+        others[0].own = &devices[1];
+        others[1].device = "stroke";
+        ts_session_options options = TS_STRUCT(ts_session_options);
+        options.own = &devices[0];
+        options.others = others;
+        options.other_count = 2;
+        options.keep = 100'000;
+        ts::Session session(options);
+        session.touch(ts::Scene({floorMesh()}));
+        session.start();
+        EXPECT_TRUE(pumpUntil(session, [&](const ts_state& s) {
+            return s.touching != 0 && first.force > 0.99 && second.force > 0.49 &&
+                   session.hand(1).force[1] > 1.1;
+        }));
+        EXPECT_TRUE(pumpUntil(session, [&](const ts_state&) { return session.hand(2).contacts > 0; }));
+        EXPECT_EQ(session.hand(0).tick, session.hand(1).tick);
+        session.stop();
+        EXPECT_EQ(first.force, 0.0);
+        EXPECT_EQ(second.force, 0.0);
+        std::vector<double> times[3];
+        for (size_t hand = 0; hand < 3; ++hand) {
+            ts_ticks ticks = TS_STRUCT(ts_ticks);
+            times[hand].resize(100'000);
+            ticks.time = times[hand].data();
+            ticks.capacity = times[hand].size();
+            size_t count = 0;
+            ts::check(ts_session_take_hand(session.get(), hand, &ticks, &count));
+            times[hand].resize(count);
+        }
+        EXPECT_GT(times[0].size(), 100u);
+        EXPECT_EQ(times[0], times[1]);
+        EXPECT_EQ(times[0], times[2]);
+    }
+    EXPECT_LE(first.largest, 1.0 + 1e-12);
+    EXPECT_LE(second.largest, 0.5 + 1e-12);
+}
+
 ts_goal floorGoal(double height) {
     ts_goal goal = TS_STRUCT(ts_goal);
     goal.touching = 1;
@@ -363,6 +410,31 @@ TEST(LiveSession, MovesAnObjectUnderTheHandAndRecordsIt) {
     ts::check(ts_session_record(session, nullptr));
     ts::check(ts_session_stop(session));
     EXPECT_LE(pressing.largest, 1.0 + 1e-12);
+    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+}
+
+/// More ticks take goals than there is room for their states, and nobody pumps: none is lost.
+TEST(LiveSession, RecordsEveryGoalWithoutAPump) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "goals.tsrec").string();
+    Pressing pressing;
+    ts::Session session(pressing.device(), 4000.0);
+    session.touch(ts::Scene(threeSquares(folder).string()));
+    session.record(file);
+    session.start();
+    ts_pose pose = TS_STRUCT(ts_pose);
+    pose.speed = 0.001;
+    const ts_state begin = session.pump();
+    for (int goal = 0; goal < 6000; ++goal) {
+        pose.position[1] = 1e-6 * goal;
+        session.move(0, pose);
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    session.halt();
+    EXPECT_GT(session.pump().ticks, begin.ticks + 3000);
+    session.endRecording();
+    session.stop();
     const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
     EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -153,6 +154,42 @@ TEST(OfflineTouch, GoesOnAlongASecondPath) {
         EXPECT_EQ(std::memcmp(part.force.data(), &whole.force[begin], done * sizeof(ts::Vector)), 0);
         EXPECT_EQ(std::memcmp(part.time.data(), &whole.time[begin], done * sizeof(double)), 0);
     }
+}
+
+/// Bits of the forces and proxies of the first `count` ticks.
+bool sameTouch(const ts::Ticks& a, const ts::Ticks& b, size_t count) {
+    return std::memcmp(a.force.data(), b.force.data(), count * sizeof(ts::Vector)) == 0 &&
+           std::memcmp(a.proxy.data(), b.proxy.data(), count * sizeof(ts::Vector)) == 0;
+}
+
+/// Where nothing moves, each feels what it feels alone.
+TEST(OfflineTouch, SeveralHandsFeelWhatEachFeelsAlone) {
+    const ts::Scene scene(TOUCHSTONE_ASSETS "/doughnut.glb");
+    std::vector<std::vector<ts::Vector>> paths;
+    for (const char* stroke : {"circle", "tour", "circle"})
+        paths.push_back(scene.stroke(stroke));
+    for (std::vector<ts::Vector>& path : paths)
+        path.resize(2000);
+    const std::vector<ts::Ticks> together = ts::touch(scene, paths);
+    ASSERT_EQ(together.size(), 3u);
+    for (size_t hand = 0; hand < 3; ++hand) {
+        const ts::Ticks alone = ts::touch(scene, paths[hand]);
+        EXPECT_TRUE(sameTouch(together[hand], alone, 2000)) << hand;
+        EXPECT_GT(std::ranges::count_if(alone.contacts, [](uint32_t contacts) { return contacts > 0; }), 500)
+            << hand;
+    }
+}
+
+/// What one hand pushes away the other does not find.
+TEST(OfflineTouch, HandsFeelEachOtherThroughABody) {
+    const ts::Scene scene(TOUCHSTONE_ASSETS "/cradle.glb");
+    std::vector<ts::Vector> path = scene.stroke("tour");
+    path.resize(3000);
+    const std::vector<ts::Vector> far(path.size(), ts::Vector{0.5, 0.5, 0.5});
+    const ts::Ticks alone = ts::touch(scene, path);
+    ASSERT_GT(std::ranges::count_if(alone.contacts, [](uint32_t contacts) { return contacts > 0; }), 100);
+    EXPECT_TRUE(sameTouch(ts::touch(scene, {path, far})[0], alone, path.size()));
+    EXPECT_FALSE(sameTouch(ts::touch(scene, {path, path})[0], alone, path.size()));
 }
 
 /// The caller's rounding mode for denormals is his.

@@ -98,6 +98,26 @@ class Offline(unittest.TestCase):
         with self.assertRaises(TypeError):
             touchstone.Scene.from_bytes(3.5)
 
+    def test_several_hands_touch_one_world(self):
+        scene = touchstone.Scene(SCENES / "doughnut.glb")
+        paths = numpy.stack([scene.stroke("circle")[:1500], scene.stroke("tour")[:1500]])
+        for together in (touchstone.touch(scene, paths), touchstone.touch(scene, list(paths), numpy.arange(1500) / 1000.0)):
+            for path, ticks in zip(paths, together, strict=True):
+                self.assertTrue(numpy.array_equal(ticks.force, touchstone.touch(scene, path).force))
+                self.assertGreater(int((ticks.contacts > 0).sum()), 500)
+        cradle = touchstone.Scene(SCENES / "cradle.glb")
+        path = cradle.stroke()[:3000]
+        alone = touchstone.touch(cradle, path).force
+        self.assertTrue(numpy.array_equal(touchstone.touch(cradle, [path, numpy.full_like(path, 0.5)])[0].force, alone))
+        self.assertFalse(numpy.array_equal(touchstone.touch(cradle, [path, path])[0].force, alone))
+        for call, part in [(lambda: touchstone.touch(scene, [path] * 5), "hands"), (lambda: touchstone.Hand(scene, hands=0), "hands"),
+                           (lambda: touchstone.Hand(scene, hands=2).touch([path]), "1 paths"),
+                           (lambda: touchstone.touch(scene, [path, path[:9]]), "paths[1].count"),
+                           (lambda: touchstone.touch(scene, [path, path[:, :2]]), "positions: its shape")]:
+            with self.assertRaises(touchstone.ArgumentError) as refused:
+                call()
+            self.assertIn(part, str(refused.exception))
+
     def test_closed_objects_say_so(self):
         scene = floor()
         hand = touchstone.Hand(scene)
@@ -193,6 +213,34 @@ class Live(unittest.TestCase):
         nowhere.run(0.2)
         self.assertEqual(nowhere.pump().contacts, 0)
         del nowhere
+
+    def test_several_hands(self):
+        felt = {name: [0.0] for name in "ab"}
+
+        def hand(name):
+            calls = []
+
+            def position():
+                calls.append(None)
+                return [0.01, max(0.1 - 0.001 * len(calls), -0.002), 0.003]
+
+            return position, lambda force: felt[name].append(force[1])
+
+        with touchstone.Session(position=hand("a")[0], force=hand("a")[1], others=[hand("b"), "stroke"], device_rate=200, max_force=1,
+                                stale_age=10, keep=1000) as session:
+            session.touch(floor())
+            session.run(60, lambda state: bool(min(map(max, felt.values())) < 0.99 or session.hand(2).contacts == 0))
+            self.assertGreater(session.hand(1).force[1], 1.5)
+            self.assertTrue(numpy.array_equal(session.take().time, session.take(hand=1).time))
+            self.assertGreater(int((session.take(hand=2).contacts > 0).sum()), 0)
+            with self.assertRaisesRegex(touchstone.ArgumentError, "there are 3"):
+                session.hand(3)
+        self.assertEqual((felt["a"][-1], felt["b"][-1]), (0, 0))
+        for others, part in ((["stroke"] * 4, "other_count"), ([3], "others"), ([(3, 4)], "others"), (["stroke:nothing"], "others.0.")):
+            with self.assertRaisesRegex(touchstone.ArgumentError, part):
+                touchstone.Session("stroke", others=others)
+        with self.assertRaisesRegex(touchstone.ArgumentError, "control loop"):
+            touchstone.Session("stroke", others=["stroke"], control=1000)
 
     def test_moves_objects_and_materials(self):
         heights = [0.1] * 20  # far above the floor, and then 1 cm
