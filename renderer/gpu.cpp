@@ -35,21 +35,17 @@ class AffinityGuard {
     bool known_ = false;
 };
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                                   VkDebugUtilsMessageTypeFlagsEXT,
-                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                                   void* user) {
-    static_cast<ValidationLog*>(user)->add(data->pMessage != nullptr ? data->pMessage : "(no text)");
-    return VK_FALSE;
-}
-
 vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
     using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
     using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    return {.messageSeverity = Severity::eWarning | Severity::eError,
-            .messageType = Type::eValidation | Type::ePerformance,
-            .pfnUserCallback = &onValidationMessage,
-            .pUserData = &log};
+    return {
+        .messageSeverity = Severity::eWarning | Severity::eError,
+        .messageType = Type::eValidation | Type::ePerformance,
+        .pfnUserCallback = [](auto, auto, const auto* data, void* user) -> VkBool32 { // C's types, or C++'s
+            static_cast<ValidationLog*>(user)->add(data->pMessage != nullptr ? data->pMessage : "(no text)");
+            return VK_FALSE;
+        },
+        .pUserData = &log};
 }
 
 bool environmentAsks(const char* name) {

@@ -43,7 +43,6 @@ class Client:
         `self.hello` is the answer."""
         self.events, self.ticks, self._asked = [], [], 0
         if isinstance(where, int):
-            token = token_of(where) if token is None else token
             self._socket = socket.create_connection(("127.0.0.1", where), timeout)
             host = f"127.0.0.1:{where}"
         elif isinstance(where, str) and where.startswith("https://"):
@@ -63,12 +62,12 @@ class Client:
             self._socket.settimeout(timeout)
             self._socket.connect(os.fspath(where))
         try:
-            self._open(host, token)
+            self._open(host, where, token)
         except BaseException:
             self.close()
             raise
 
-    def _open(self, host, token):
+    def _open(self, host, where, token):
         self._socket.sendall((f"GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                               f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n"
                               "Sec-WebSocket-Version: 13\r\n\r\n").encode())
@@ -78,7 +77,7 @@ class Client:
         head, self._buffer = self._buffer.split(b"\r\n\r\n", 1)
         if b" 101 " not in head.split(b"\r\n")[0]:
             raise ServerError(head.split(b"\r\n")[0].decode(errors="replace"))
-        self.hello = self.ask("authenticate", token=token)
+        self.hello = self.ask("authenticate", token=token_of(where) if token is None else token)
 
     def __enter__(self):
         return self

@@ -1,6 +1,7 @@
 """The Python module: the program's touch to the last bit, arrays, errors, threads, real time. Run by CTest with PYTHONPATH and the
 arguments PROGRAM SCENES."""
 
+import math
 import pathlib
 import subprocess
 import sys
@@ -221,16 +222,24 @@ class Live(unittest.TestCase):
             calls = []
 
             def position():
-                calls.append(None)
-                return [0.01, max(0.1 - 0.001 * len(calls), -0.002), 0.003]
+                calls.append(None)  # in and out: a hand that begins in the model feels nothing before it has left
+                return [0.01, max(0.01 * math.cos(0.02 * len(calls)), -0.002), 0.003]
 
             return position, lambda force: felt[name].append(force[1])
+
+        forces = [0.0]
+
+        def goes_on(state):
+            forces.append(session.hand(1).force[1])
+            touched = session.hand(2).contacts > 0
+            return bool(min(map(max, felt.values())) < 0.99 or max(forces) < 1.5 or not touched)
 
         with touchstone.Session(position=hand("a")[0], force=hand("a")[1], others=[hand("b"), "stroke"], device_rate=200, max_force=1,
                                 stale_age=10, keep=1000) as session:
             session.touch(floor())
-            session.run(60, lambda state: bool(min(map(max, felt.values())) < 0.99 or session.hand(2).contacts == 0))
-            self.assertGreater(session.hand(1).force[1], 1.5)
+            session.run(60, goes_on)
+            self.assertGreater(max(forces), 1.5)  # 800 N/m, 2 mm; no command is above 1 N
+            self.assertLessEqual(max(map(max, felt.values())), 1 + 1e-12)
             self.assertTrue(numpy.array_equal(session.take().time, session.take(hand=1).time))
             self.assertGreater(int((session.take(hand=2).contacts > 0).sum()), 0)
             with self.assertRaisesRegex(touchstone.ArgumentError, "there are 3"):
