@@ -132,7 +132,7 @@ void StatusFile::update(double now, const PanelInput& input, const PanelState& s
     last_ = now;
     const ServoView& servo = *input.servo;
     const HapticOutput& tick = servo.last.output;
-    const auto recentTicks = static_cast<size_t>(servo.rateHz * kInterval);
+    const auto recentTicks = static_cast<size_t>(servo.rateHz * kLookBack);
     const ForceHistory::Entry recent = input.forces->mean(recentTicks);
     // The mouse has no clutch; it receives no force while it hovers.
     const bool mouse = state.device.empty() && !state.simulatedHand;

@@ -2,6 +2,7 @@
 // whatever has the focus.
 
 #include "haptics/recording/recording_reader.h"
+#include "tests/support/sweep.h"
 #include "tests/unit/workbench/window_test.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +52,8 @@ class KeysTest : public WindowTest {
     }
 };
 
-TEST_F(KeysTest, TwoHundredTapsOfTheForceKeyTakeEffectUnderLoad) {
+TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
+    const int count = repetitions(60, 200);
     const std::filesystem::path file = scratch_ / "taps.tsrec";
     open(kDoughnut, {"--hand", "simulated", "--stroke", "press", "--record", file.string()});
     until("the hand to press", [](const Json& s) { return s["recent"]["mean_force_n"] > 0.3; });
@@ -60,10 +62,10 @@ TEST_F(KeysTest, TwoHundredTapsOfTheForceKeyTakeEffectUnderLoad) {
         load.push_back(std::make_unique<BackgroundProgram>(
             std::vector<std::string>{"sh", "-c", "while :; do :; done"}, Environment{}, scratch_ / "load"));
     const double start = later()["servo"]["start_s"];
-    const std::vector<double> taps = tap(200, 120, {"space"});
-    ASSERT_EQ(taps.size(), 200u);
+    const std::vector<double> taps = tap(count, 120, {"space"});
+    ASSERT_EQ(taps.size(), static_cast<size_t>(count));
     load.clear();
-    const Json s = until("all presses", [](const Json& now) { return now["force_presses"] == 200; });
+    const Json s = until("all presses", [&](const Json& now) { return now["force_presses"] == count; });
     later();
     // Of several presses between two pictures none gives the force back: which it is now is the picture's
     // doing.
@@ -87,7 +89,7 @@ TEST_F(KeysTest, TwoHundredTapsOfTheForceKeyTakeEffectUnderLoad) {
                 ticks.push_back(
                     {start + tick.time, enabled.at(tick.settings), glm::length(tick.command) > 0.0});
     }
-    ASSERT_GT(ticks.size(), 10000u);
+    ASSERT_GT(ticks.size(), 50u * taps.size());
     int lost = 0;
     std::vector<double> untilOff, untilZero;
     for (const double at : taps) {
@@ -110,15 +112,16 @@ TEST_F(KeysTest, TwoHundredTapsOfTheForceKeyTakeEffectUnderLoad) {
         untilZero.push_back(zero->time - at);
     }
     EXPECT_EQ(lost, 0);
-    ASSERT_GT(untilZero.size(), 10u) << "the window gives the force back between taps, as fast as it draws";
+    ASSERT_GT(untilZero.size(), taps.size() / 20)
+        << "the window gives the force back between taps, as fast as it draws";
     std::ranges::sort(untilOff);
     std::ranges::sort(untilZero);
     std::printf(
-        "%zu of 200 taps took a force away; to the tick without: median %.2f ms, 95th percentile %.2f ms; to "
+        "%zu of %d taps took a force away; to the tick without: median %.2f ms, 95th percentile %.2f ms; to "
         "a command of zero: median %.2f ms, 95th percentile %.2f ms, most %.2f ms\n",
-        untilZero.size(), 1e3 * untilOff[untilOff.size() / 2], 1e3 * untilOff[untilOff.size() * 95 / 100],
-        1e3 * untilZero[untilZero.size() / 2], 1e3 * untilZero[untilZero.size() * 95 / 100],
-        1e3 * untilZero.back());
+        untilZero.size(), count, 1e3 * untilOff[untilOff.size() / 2],
+        1e3 * untilOff[untilOff.size() * 95 / 100], 1e3 * untilZero[untilZero.size() / 2],
+        1e3 * untilZero[untilZero.size() * 95 / 100], 1e3 * untilZero.back());
 }
 
 TEST_F(KeysTest, TheForceKeyWorksWhateverHasTheFocus) {

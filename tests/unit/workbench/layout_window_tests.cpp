@@ -296,7 +296,7 @@ TEST_F(LayoutTest, StripsAreChosenMadeTallerAndKept) {
     const auto height = [](const Json& s) { return s["widgets"]["charts"]["height"].get<double>(); };
     const Json before = later();
     EXPECT_EQ(before["charts"]["shown"], (Json{"normal", "tangential", "depth"}));
-    const Json edge = before["widgets"]["chartsEdge"];
+    const Json edge = restingPlace("chartsEdge");
     const VirtualDisplay::Place from{
         corner_.x + static_cast<int>(edge["x"].get<double>() + 0.5 * edge["width"].get<double>()),
         corner_.y + static_cast<int>(edge["y"].get<double>() + 0.5 * edge["height"].get<double>())};
@@ -314,7 +314,7 @@ TEST_F(LayoutTest, StripsAreChosenMadeTallerAndKept) {
     });
     display_.key("Escape");
     // Far beyond the window's top: the picture keeps some room.
-    const Json now = later()["widgets"]["chartsEdge"];
+    const Json now = restingPlace("chartsEdge");
     const VirtualDisplay::Place edgeNow{from.x, corner_.y + static_cast<int>(now["y"].get<double>() + 3.0)};
     display_.drag(edgeNow, {from.x, corner_.y});
     EXPECT_GE(later()["widgets"]["picture"]["height"], 180.0);

@@ -9,6 +9,8 @@ namespace touchstone::test {
 
 namespace {
 
+constexpr int kFrames = 80; // ms, two frames and more; what comes faster waits for its frame
+
 void pause(int milliseconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
@@ -128,9 +130,9 @@ void VirtualDisplay::drag(const Place& from, const Place& to, int button) const 
 
 void VirtualDisplay::key(const std::string& name) const {
     xdotool({"keydown", name});
-    pause(120);
+    pause(kFrames);
     xdotool({"keyup", name});
-    pause(120);
+    pause(kFrames);
 }
 
 void VirtualDisplay::drop(const std::string& title, const std::filesystem::path& file) const {

@@ -55,24 +55,46 @@ class WindowTest : public testing::Test {
 
     /// Waits for a status that says so, and returns it.
     Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        for (int i = 0; i < 600; ++i) {
+        for (int i = 0; i < 2000; ++i) {
             const Json now = status();
             if (now["update"] > 0 && holds(now))
                 return now;
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            std::this_thread::sleep_for(std::chrono::milliseconds(30));
         }
         throw std::runtime_error("waited in vain for " + what + ": " + status().dump(2) +
                                  readFile(scratch_ / "log"));
     }
 
-    /// A status that was measured wholly after now.
+    /// A status of the window as it is some pictures after now.
     Json later() {
-        const int update = status()["update"];
-        return until("a newer status", [&](const Json& s) { return s["update"] >= update + 2; });
+        const Json before = status();
+        const int frames = before.value("frames", 0);
+        return until("a newer status", [&](const Json& s) {
+            return s["update"] >= before["update"].get<int>() + 2 && s["frames"] >= frames + 4;
+        });
+    }
+    /// A status whose means and largest values, which look back half a second, are of wholly after now.
+    Json measured() {
+        const double now = later()["time"];
+        return until("newer means", [&](const Json& s) { return s["time"] >= now + 0.5; });
     }
 
+    /// Where a widget is once it stays there: what has just been opened takes its place in later pictures.
+    Json restingPlace(const std::string& widget) {
+        const auto place = [&](const Json& s) {
+            Json rect = s["widgets"].at(widget);
+            rect.erase("note");
+            return rect;
+        };
+        for (Json rect = place(status());;) {
+            const Json next = place(later());
+            if (next == rect)
+                return rect;
+            rect = next;
+        }
+    }
     VirtualDisplay::Place middleOf(const std::string& widget) {
-        const Json rect = status()["widgets"].at(widget);
+        const Json rect = restingPlace(widget);
         return {corner_.x + static_cast<int>(rect["x"].get<double>() + 12.0),
                 corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())};
     }
@@ -85,7 +107,7 @@ class WindowTest : public testing::Test {
 
     /// Clicks into a slider, at a share of its width.
     void slide(const std::string& name, double share) {
-        const Json rect = later()["widgets"].at(name);
+        const Json rect = restingPlace(name);
         display_.click(
             {corner_.x + static_cast<int>(rect["x"].get<double>() + share * rect["width"].get<double>()),
              corner_.y + static_cast<int>(rect["y"].get<double>() + 0.5 * rect["height"].get<double>())});

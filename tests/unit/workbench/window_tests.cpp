@@ -35,7 +35,7 @@ TEST_F(WindowTest, TheContactMethodCanBeChosenWhileTouching) {
     display_.click(choice);
     until("the neighbourhood watch to be chosen",
           [](const Json& s) { return s["settings"]["contact"] == "neighbourhood"; });
-    later();
+    measured();
     const Json walked = until("the hand to touch again", touching);
     EXPECT_GT(walked["recent"]["mean_force_n"], 0.05);
     expectCleanEnd();
@@ -70,14 +70,14 @@ TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
     open(kDoughnut, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5",
                      "--set", "texture=off"});
     until("the hand to touch", touching);
-    const Json on = later();
+    const Json on = measured();
     ASSERT_EQ(on["settings"]["friction"], "zilles");
     EXPECT_GT(on["recent"]["mean_force_n"], 0.05);
     EXPECT_GT(on["recent"]["mean_tangential_force_n"], 0.02);
 
     display_.click(middleOf("friction"));
     until("friction to be off", [](const Json& s) { return s["settings"]["friction"] == "off"; });
-    later();
+    measured();
     const Json off = until("the hand to touch again", touching);
     EXPECT_GT(off["recent"]["mean_force_n"], 0.05);
     EXPECT_LT(off["recent"]["mean_tangential_force_n"],
@@ -86,7 +86,7 @@ TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
     display_.click(middleOf("friction"));
     until("friction to be back as it was",
           [](const Json& s) { return s["settings"]["friction"] == "zilles"; });
-    later();
+    measured();
     const Json again = until("the hand to touch once more", touching);
     EXPECT_GT(again["recent"]["mean_tangential_force_n"], 0.02);
     expectCleanEnd();
@@ -275,6 +275,7 @@ TEST_F(WindowTest, PushingAFreeHandIntoTheModelIsFelt) {
     display_.move(inPicture(0.5, 0.5));
     later(); // over the box, before it
     display_.key("g");
+    measured();
     until("the air", [](const Json& s) { return !touching(s); });
     display_.scroll(inPicture(0.5, 0.5), 14);
     const Json pressed = until("a contact", touching);
