@@ -13,12 +13,15 @@ namespace touchstone {
 
 namespace {
 
-/// OpenVDB asks it now and then whether to stop.
-struct Interrupter {
-    const Progress& progress;
-    void start(const char* = nullptr) {}
-    void end() {}
-    bool wasInterrupted(int = -1) { return progress.cancelled(); }
+/// OpenVDB asks it now and then whether to stop. As its base it is given to what OpenVDB's library holds
+/// compiled.
+class Interrupter final : public openvdb::util::NullInterrupter {
+  public:
+    explicit Interrupter(const Progress& progress) : progress_(progress) {}
+    bool wasInterrupted(int = -1) override { return progress_.cancelled(); }
+
+  private:
+    const Progress& progress_;
 };
 
 /// The object's bounds, and room about them for the field's outside and two voxels.
@@ -88,7 +91,7 @@ std::shared_ptr<const FieldGrid> gridOf(const Soup& soup, const FieldLayout& lay
         return static_cast<float>((distance + shell) / layout.voxel + 1.0);
     };
     const auto transform = openvdb::math::Transform::createLinearTransform(layout.voxel);
-    Interrupter interrupter{progress};
+    Interrupter interrupter(progress);
     openvdb::FloatGrid::Ptr distances;
     {
         constexpr double kTimePerCell = 4e-9; // s
@@ -96,7 +99,8 @@ std::shared_ptr<const FieldGrid> gridOf(const Soup& soup, const FieldLayout& lay
                                          0.1 +
                                              kTimePerCell * layout.cells.x * layout.cells.y * layout.cells.z);
         distances = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-            interrupter, soup, *transform, band(request.outside), band(solid ? request.inside : 0.0),
+            static_cast<openvdb::util::NullInterrupter&>(interrupter), soup, *transform,
+            band(request.outside), band(solid ? request.inside : 0.0),
             solid ? openvdb::tools::DISABLE_RENORMALIZATION : openvdb::tools::UNSIGNED_DISTANCE_FIELD);
     }
     progress.step(0.7, kBuilding);
