@@ -1,8 +1,6 @@
 #include "haptics/tick/haptic_step.h"
 
-#include "haptics/body/hold_body.h"
 #include "haptics/comparison/comparison_solver.h"
-#include "haptics/force/tool_resistance.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/proxy_solver.h"
 #include "haptics/safety/force_limiter.h"
@@ -13,6 +11,7 @@
 #include "haptics/surface/press_dents.h"
 #include "haptics/surface/program_surface.h"
 #include "haptics/tick/felt_force.h"
+#include "haptics/tick/object_step.h"
 
 #include <cmath>
 #include <type_traits>
@@ -59,25 +58,6 @@ template <class Solver, class Stopwatch>
     proxy.moveTowards(first.goal);
     stopwatch.lap(Stage::Proxy);
     shadeTwoPass(tick.scene, tick.motions, tick.settings, hip, first, proxy, state, state.rest);
-}
-
-/// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
-/// finite ends at the hand's safety stage.
-[[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,
-                                   double share, double stiffness, double most, ContactForces& parts,
-                                   WorldState& world) {
-    if (!std::isfinite(force.x + force.y + force.z))
-        return;
-    parts.complete(force);
-    for (size_t i = 0; i < parts.count; ++i)
-        world.push(parts.object[i], workspaceFromReference.point(parts.point[i]),
-                   -share * workspaceFromReference.direction(parts.force[i]), stiffness, most);
-}
-
-/// The fraction of a contact's force with which the hand pushes: no more than its device can exert.
-double bornByDevice(const HandTick& tick, const Felt& felt, double share) {
-    const double force = share * glm::length(felt.force);
-    return force > tick.limits.maxForce ? share * tick.limits.maxForce / force : share;
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
@@ -145,12 +125,6 @@ template <class Solver, class Stopwatch>
     stopwatch.lap(Stage::Force);
 }
 
-/// Touch begins again where the hand is next sampled.
-[[gnu::noinline]] void beginTouch(DeviceState& state, bool mustLeave) {
-    state.forgetTouch();
-    state.mustLeave = mustLeave;
-}
-
 /// A tick without a sample in a moving scene: the proxy moves with the objects as if the hand were at rest. A
 /// neighbourhood watch in contact moves with its reference object; one in free space would need every
 /// object's pose at the last sample, so it restarts.
@@ -190,69 +164,6 @@ void touchWithModel(const HandTick& tick, WorldState& world, DeviceState& state,
     if (!sweep && touchOtherwise(tick, world, state, output, stopwatch))
         return;
     touch<ProxySolver>(tick, world, state, output, stopwatch);
-}
-
-/// Stage 7 of a hand that takes a solid away: its resistance joins the force.
-[[gnu::noinline]] void resistTool(const HandTick& tick, const LiveTool& tool, const DeviceState& state,
-                                  WorldState& world, HapticOutput& output) {
-    const int object = output.object >= 0 ? output.object : tool.object;
-    if (object < 0 || static_cast<size_t>(object) >= tick.scene.objects.size())
-        return;
-    const auto index = static_cast<size_t>(object);
-    const Shape* const shape = tick.scene.objects[index]->shape.get();
-    const PotentialField* const field = shape != nullptr ? shape->potential() : nullptr;
-    if (field == nullptr)
-        return;
-    const glm::dvec3 force = toolResistance(*field, tick.motions[index].workspaceFromObject, tool, output.hip,
-                                            state.velocity, tick.limits.apparentMass, tick.dt) /
-                             output.zoom;
-    output.force += force;
-    if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
-        world.push(object, output.hip, -force, 0.0, tick.limits.maxForce); // a damper
-}
-
-bool holdsOn(const HapticSettings& settings, const DeviceSample& sample) {
-    return settings.grasp == GraspMode::Touch ||
-           (settings.grasp == GraspMode::Button && (sample.buttons & kSculptButton) != 0);
-}
-
-/// Stages 2 to 7 of a hand that holds a body, and its release: then touch begins again where the hand is
-/// clear of the model. False where it holds none.
-[[gnu::noinline]] bool hold(const HandTick& tick, const DeviceSample& sample, bool sampled, WorldState& world,
-                            DeviceState& state, HapticOutput& output) {
-    if (state.grasp.object < 0)
-        return false;
-    const bool can = world.bodies() != nullptr && body::canHold(*world.bodies(), state.grasp.object);
-    if (!can || !holdsOn(tick.settings, sample)) {
-        state.grasp = {};
-        beginTouch(state, true);
-        return false;
-    }
-    if (!sampled)
-        return true;
-    const double stated = tick.settings.stiffness > 0.0
-                              ? tick.settings.stiffness
-                              : std::min(tick.limits.recommendedStiffness, tick.limits.maxStiffness);
-    const body::Hold held = body::holdBody(*world.bodies(), tick.motions, state.grasp, output.hip,
-                                           output.hipVelocity, stated, tick.limits, tick.dt);
-    output.proxy = held.place;
-    output.penetration = glm::length(held.place - output.hip);
-    output.force = held.force;
-    output.object = state.grasp.object;
-    output.contacts = 1;
-    const double size = glm::length(held.force);
-    output.normal = size > 0.0 ? held.force / size : glm::dvec3(0.0, 1.0, 0.0);
-    return true;
-}
-
-/// The end of stage 7: a hand that may take hold of what it has just touched.
-[[gnu::noinline]] void takeHold(const HandTick& tick, const DeviceSample& sample, const WorldState& world,
-                                DeviceState& state, const HapticOutput& output) {
-    if (state.grasp.object >= 0 || output.object < 0 || !holdsOn(tick.settings, sample) ||
-        world.bodies() == nullptr || !body::canHold(*world.bodies(), output.object))
-        return;
-    const Similarity& pose = tick.motions[static_cast<size_t>(output.object)].workspaceFromObject;
-    state.grasp = {output.object, pose.inversePoint(output.proxy), pose.rotation};
 }
 
 /// Stages 2 to 7 where a surface may give way.
