@@ -1,11 +1,12 @@
-// Feeds the translator of haptic programs SPIR-V that is nearly right, and runs what it accepts: no crash, no
-// run beyond its budget, no finished run with an output that is not finite. The same modules are linked into
-// a shader for the eye. This target alone is compiled under the address and undefined behaviour sanitizers in
-// every preset.
+// Feeds the translator of haptic programs SPIR-V that is nearly right or random, and runs what it accepts: no
+// crash, no run beyond its budget, no finished run with an output that is not finite, no force beyond its
+// bounds. The same modules are linked into a shader for the eye. This target alone is compiled under the
+// address and undefined behaviour sanitizers in every preset.
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
 #include "haptics/program/executor.h"
 #include "haptics/program/load_program.h"
+#include "haptics/program/program_touch.h"
 #include "haptics/program/translator.h"
 #include "renderer/program/link_program.h"
 
@@ -146,6 +147,55 @@ void runHere(const RegisterProgram& program, std::mt19937& random) {
     ASSERT_LE(runDual(program, dual, dualOut).cost, 2 * kBudget);
 }
 
+/// What a contact feels of it is within the bounds of program_touch.h, wherever it lies.
+void feelHere(const RegisterProgram& program, std::mt19937& random) {
+    const auto number = [&] {
+        for (;;)
+            if (const float value = kStrange[random() % std::size(kStrange)]; std::isfinite(value))
+                return static_cast<double>(value);
+    };
+    const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+    const ProgramContact contact{.position = vector(),
+                                 .uv = {number(), number()},
+                                 .toolDirection = {1.0, 0.0, 0.0},
+                                 .toolVelocity = vector(),
+                                 .toolAcceleration = vector(),
+                                 .depth = 1e-5 * static_cast<double>(random() % 1000),
+                                 .stiffness = 600.0,
+                                 .damping = 1.0,
+                                 .staticFriction = 0.4,
+                                 .dynamicFriction = 0.3,
+                                 .time = number(),
+                                 .maxStiffness = 3000.0};
+    for (const ProgramGradient gradient :
+         {ProgramGradient::Dual, ProgramGradient::Central, ProgramGradient::None}) {
+        const ProgramFelt felt = feelProgram(program, gradient, contact);
+        const double greatest = kMaxProgramGain * contact.maxStiffness * contact.depth;
+        ASSERT_LE(felt.cost, 2 * kBudget);
+        ASSERT_LE(glm::length(felt.force), greatest * (1.0 + 1e-9)); // not so of a NaN, either
+        ASSERT_GE(glm::dot(felt.force, contact.normal), -1e-9);
+        ASSERT_GE(felt.stiffness, 0.0);
+        ASSERT_LE(felt.stiffness, contact.maxStiffness);
+        ASSERT_GE(felt.dynamicFriction, 0.0);
+        ASSERT_GE(felt.staticFriction, felt.dynamicFriction);
+        ASSERT_TRUE(std::isfinite(felt.staticFriction) && std::isfinite(felt.damping));
+        ASSERT_GE(felt.damping, 0.0);
+        ASSERT_LE(std::abs(felt.height), contact.depth);
+    }
+}
+
+/// Words that are at most instructions.
+Words randomModule(std::mt19937& random) {
+    Words words = {0x07230203, 0x00010000, 0, static_cast<uint32_t>(1 + random() % 100), 0};
+    for (size_t instructions = random() % 60; instructions > 0; --instructions) {
+        const uint32_t count = 1 + random() % 6;
+        words.push_back(count << 16 | static_cast<uint32_t>(random() % 330));
+        for (uint32_t k = 1; k < count; ++k)
+            words.push_back(static_cast<uint32_t>(random() % (random() % 8 == 0 ? 0x80000000u : 100u)));
+    }
+    return words;
+}
+
 /// Whatever the compiler makes of what people write is valid for the eye.
 TEST(ProgramFuzz, LinkedProgramsAreValid) {
     for (const Words& words : seeds()) {
@@ -183,7 +233,7 @@ void fuzz(unsigned seed, int trials) {
     int accepted = 0;
     for (int i = 0; i < trials; ++i) {
         const size_t source = random() % from.size();
-        const Words words = mutant(from[source], random);
+        const Words words = i % 10 == 9 ? randomModule(random) : mutant(from[source], random);
         linkHere(words);
         Translation translation = translateSpirv(words);
         if (translation.problem) {
@@ -192,8 +242,10 @@ void fuzz(unsigned seed, int trials) {
         }
         ++accepted;
         setParameters(translation.program, readProgramSource("seed", kSources[source]).parameters);
-        for (int k = 0; k < 4; ++k)
+        for (int k = 0; k < 4; ++k) {
             runHere(translation.program, random);
+            feelHere(translation.program, random);
+        }
         if (::testing::Test::HasFatalFailure())
             return;
     }
@@ -244,6 +296,7 @@ TEST(ProgramSweep, AThousandRandomSourcesAreRefusedWithAMessageOrRun) {
             if (!translation.problem) {
                 ++accepted;
                 runHere(translation.program, random);
+                feelHere(translation.program, random);
             }
         } catch (const Error& error) {
             ASSERT_FALSE(error.remedy().empty());

@@ -3,7 +3,10 @@
 
 #include "conformance_expressions.h"
 
+#include <glslang/SPIRV/spirv.hpp>
+
 #include <random>
+#include <set>
 
 namespace touchstone::program {
 namespace {
@@ -71,16 +74,71 @@ TEST(ProgramConformance, DualNumbersDifferentiateEveryOperation) {
     }
 }
 
+constexpr const char* kOperationNames[] = {
+#define TOUCHSTONE_OPERATION(name, cost) #name,
+    TOUCHSTONE_PROGRAM_OPERATIONS(TOUCHSTONE_OPERATION)
+#undef TOUCHSTONE_OPERATION
+};
+
+/// Operations of SPIR-V that glslang makes of no GLSL: in place of those that it makes.
+struct Replaced {
+    const char* body; ///< before.uv has the operands
+    spv::Op from, to;
+    double (*reference)(double x, double y);
+};
+const Replaced kReplaced[] = {
+    {"after.damping = mod(before.uv.x, before.uv.y);", spv::OpFMod, spv::OpFRem,
+     [](double x, double y) { return std::fmod(x, y); }},
+    {"after.damping = float(int(before.uv.x) % int(before.uv.y));", spv::OpSMod, spv::OpSRem,
+     [](double x, double y) { return double(int(x) % int(y)); }},
+    {"after.damping = before.uv.x == before.uv.y ? 1.0 : 0.0;", spv::OpFOrdEqual, spv::OpFUnordEqual,
+     [](double x, double y) { return !(x < y || x > y) ? 1.0 : 0.0; }},
+    {"after.damping = before.uv.x == before.uv.y ? 1.0 : 0.0;", spv::OpFOrdEqual, spv::OpFOrdNotEqual,
+     [](double x, double y) { return x < y || x > y ? 1.0 : 0.0; }},
+    {"after.damping = before.uv.x < before.uv.y ? 1.0 : 0.0;", spv::OpFOrdLessThan, spv::OpFUnordLessThan,
+     [](double x, double y) { return !(x >= y) ? 1.0 : 0.0; }},
+    {"after.damping = before.uv.x < before.uv.y ? 1.0 : 0.0;", spv::OpFOrdLessThan,
+     spv::OpFUnordLessThanEqual, [](double x, double y) { return !(x > y) ? 1.0 : 0.0; }},
+    {"after.damping = before.uv.x < before.uv.y ? 1.0 : 0.0;", spv::OpFOrdLessThan, spv::OpFUnordGreaterThan,
+     [](double x, double y) { return !(x <= y) ? 1.0 : 0.0; }},
+};
+
+TEST(ProgramConformance, OperationsThatGlslangMakesOfNoGlslComputeWhatSpirvSays) {
+    const float nan = std::nanf("");
+    for (const Replaced& each : kReplaced) {
+        const std::vector<uint32_t> words = spirvOf(touchBody(each.body)),
+                                    other = replaced(words, each.from, each.to);
+        ASSERT_NE(words, other) << each.body;
+        const Translation translation = translateSpirv(other);
+        ASSERT_FALSE(translation.problem) << each.body;
+        const bool ofNumbers = each.to == spv::OpFRem || each.to == spv::OpSRem;
+        for (const float x : {-7.5f, -2.0f, 0.0f, 3.0f, 7.5f, nan})
+            for (const float y : {-3.0f, 2.0f, 3.0f, nan}) {
+                if (ofNumbers && (std::isnan(x) || std::isnan(y)))
+                    continue;
+                Inputs in = inputsAt(0.0f, 0.0f, 0.0f);
+                in[kUv] = {x, y, 0.0f, 0.0f};
+                EXPECT_EQ(static_cast<double>(outputAt(translation.program, in, kOutMaterial)[3]),
+                          each.reference(static_cast<double>(x), static_cast<double>(y)))
+                    << each.body << " " << each.to << " at " << x << ", " << y;
+            }
+    }
+}
+
+constexpr const char* kStructBody =
+    "int e; vec3 whole; float s = frexp(before.position.x, e); vec3 part = modf(before.position, whole);"
+    "after.force = vec3(s, float(e), part.y); after.normal = whole;"
+    "uint high, low; umulExtended(0xdeadbeefu, uint(before.position.z), high, low);"
+    "uint carry, borrow; uint sum = uaddCarry(0xfffffff0u, uint(before.position.z), carry);"
+    "uint less = usubBorrow(5u, uint(before.position.z), borrow);"
+    "after.staticFriction = float(high); after.dynamicFriction = float(low & 0xffffu);"
+    "after.stiffness = float(sum) + 1000.0 * float(carry);"
+    "after.damping = float(less & 0xffffu) + 100000.0 * float(borrow);"
+    "int signedHigh, signedLow; imulExtended(-1234567890, int(before.position.z), signedHigh, signedLow);"
+    "after.position = vec3(float(signedHigh), float(signedLow & 0xffff), 0.0);";
+
 TEST(ProgramConformance, StructResultsHaveBothParts) {
-    const RegisterProgram program = programOf(touchBody(
-        "int e; vec3 whole; float s = frexp(before.position.x, e); vec3 part = modf(before.position, whole);"
-        "after.force = vec3(s, float(e), part.y); after.normal = whole;"
-        "uint high, low; umulExtended(0xdeadbeefu, uint(before.position.z), high, low);"
-        "uint carry, borrow; uint sum = uaddCarry(0xfffffff0u, uint(before.position.z), carry);"
-        "uint less = usubBorrow(5u, uint(before.position.z), borrow);"
-        "after.staticFriction = float(high); after.dynamicFriction = float(low & 0xffffu);"
-        "after.stiffness = float(sum) + 1000.0 * float(carry);"
-        "after.damping = float(less & 0xffffu) + 100000.0 * float(borrow);"));
+    const RegisterProgram program = programOf(touchBody(kStructBody));
     Inputs out{};
     ASSERT_EQ(run(program, inputsAt(12.5f, -3.75f, 300.0f), out).ending, Ending::Finished);
     EXPECT_EQ(out[kOutForce], (PortValue{0.78125f, 4.0f, -0.75f, 0.0f}));
@@ -90,6 +148,9 @@ TEST(ProgramConformance, StructResultsHaveBothParts) {
     EXPECT_EQ(out[kOutMaterial][1], static_cast<float>(product & 0xffffu));
     EXPECT_EQ(out[kOutMaterial][2], 284.0f + 1000.0f);
     EXPECT_EQ(out[kOutMaterial][3], static_cast<float>((5u - 300u) & 0xffffu) + 100000.0f);
+    const int64_t signedProduct = int64_t{-1234567890} * 300;
+    EXPECT_EQ(out[kOutPosition][0], static_cast<float>(signedProduct >> 32));
+    EXPECT_EQ(out[kOutPosition][1], static_cast<float>(signedProduct & 0xffff));
 }
 
 TEST(ProgramConformance, ConversionsThatCppLeavesOpenSaturate) {
@@ -103,6 +164,27 @@ TEST(ProgramConformance, ConversionsThatCppLeavesOpenSaturate) {
     EXPECT_EQ(at(1e20f), (PortValue{2147483648.0f, 4294967296.0f, 0.0f, 0.0f}));
     EXPECT_EQ(at(-1e20f), (PortValue{-2147483648.0f, 0.0f, 0.0f, 0.0f}));
     EXPECT_EQ(at(std::nanf("")), (PortValue{0.0f, 0.0f, 0.0f, 0.0f}));
+}
+
+/// No operation of the executor is without a comparison in these files.
+TEST(ProgramConformance, EveryOperationIsMet) {
+    std::set<Operation> met;
+    const auto meet = [&](const RegisterProgram& program) {
+        for (const Instruction& each : program.instructions)
+            met.insert(each.operation);
+    };
+    for (size_t first = 0; first < reference::kExpressions.size(); first += kTogether)
+        meet(programOf(programWith(first)));
+    meet(programOf(touchBody(kStructBody)));
+    for (const Replaced& each : kReplaced)
+        meet(translateSpirv(replaced(spirvOf(touchBody(each.body)), each.from, each.to)).program);
+    // ProgramExecutor.LoopsConditionsSwitchesAndArraysComputeWhatTheyDoInCpp, in short.
+    meet(programOf(
+        touchBody("float t[3] = float[](1.0, 2.0, 3.0); int n = int(before.position.x);\n"
+                  "for (int i = 0; i < n; i++) switch (i & 3) { case 0: t[i % 3] += 1.0; break;\n"
+                  "case 2: if (t[1] > 4.0) return; continue; default: after.damping += t[i % 3]; }")));
+    for (size_t i = 0; i < std::size(kOperationNames); ++i)
+        EXPECT_TRUE(met.contains(static_cast<Operation>(i))) << kOperationNames[i];
 }
 
 } // namespace

@@ -35,6 +35,14 @@ inline RegisterProgram programOf(const std::string& text) {
     return std::move(translation.program);
 }
 
+/// A module with another instruction in place of one.
+inline std::vector<uint32_t> replaced(std::vector<uint32_t> words, uint32_t from, uint32_t to) {
+    for (size_t i = 5; i < words.size(); i += std::max(words[i] >> 16, 1u))
+        if ((words[i] & 0xffffu) == from)
+            words[i] = (words[i] & 0xffff0000u) | to;
+    return words;
+}
+
 /// The body of touch.
 inline std::string touchBody(const std::string& body) {
     return "void touch(const in Touch before, inout Surface after) {\n" + body + "\n}\n";
