@@ -144,7 +144,9 @@ TEST(GltfHaptics, ReadsTheTextureOfADistanceField) {
                                           {"noiseSeed", 7},
                                           {"latticeAmplitude", 0.0006},
                                           {"latticeWavelength", 0.012}}));
-    EXPECT_TRUE(scene->warnings.empty());
+    for (const char* name :
+         {".noiseAmplitude", ".noiseWavelength", ".noiseSeed", ".latticeAmplitude", ".latticeWavelength"})
+        EXPECT_FALSE(warns(*scene, name, "")) << name;
     EXPECT_EQ(scene->materials[0].haptic.fieldTexture, (FieldTexture{.noiseAmplitude = 0.0002f,
                                                                      .noiseWavelength = 0.004f,
                                                                      .noiseSeed = 7.0f,
