@@ -226,8 +226,14 @@ void WorkbenchWindow::pace(double start) {
     if (screen_.target().statistics().framesPresented > 1) // the first keeps no picture waiting
         longestFrame_ = std::max(longestFrame_, busy);
     window_.waitEvents(0.0);
-    for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
-        window_.waitEvents(left);
+    // An edit that is on its way is felt as soon as it is made, not a frame later.
+    constexpr double kLook = 0.003; // s
+    for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow()) {
+        const bool edits = materials_.onTheWay();
+        window_.waitEvents(edits ? std::min(left, kLook) : left);
+        if (edits)
+            takeMaterials();
+    }
 }
 
 int windowCommand(const WindowOptions& options) {

@@ -115,7 +115,7 @@ ProcessAnswer answerOf(Child& child, const FileDescriptor& reading, const Proces
         if (ended)
             break;
         pollfd ready{.fd = open ? reading.get() : -1, .events = POLLIN, .revents = 0};
-        poll(&ready, 1, kInterval);
+        poll(&ready, 1, open ? kInterval : 1); // a child that has closed its output is about to end
     }
     if (answer.end == TooLong)
         return answer;

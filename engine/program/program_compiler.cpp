@@ -114,11 +114,19 @@ ProgramCompiler installedProgramCompiler() {
     return compiler;
 }
 
-void WaitingCompiler::start() {
-    if (process_ == nullptr)
-        process_ = std::make_unique<WaitingProcess>(
+void WaitingCompiler::start(size_t wanted) {
+    if (processes_.size() < wanted)
+        processes_.push_back(std::make_unique<WaitingProcess>(
             compiler_.program.string(),
-            std::vector<std::string>{compiler_.program.filename().string(), "--wait"}, compiler_.limits);
+            std::vector<std::string>{compiler_.program.filename().string(), "--wait"}, compiler_.limits));
+}
+
+std::unique_ptr<WaitingProcess> WaitingCompiler::take() {
+    if (processes_.empty())
+        return nullptr;
+    std::unique_ptr<WaitingProcess> oldest = std::move(processes_.front());
+    processes_.erase(processes_.begin());
+    return oldest;
 }
 
 std::string placeInSource(const ProgramSource& source, const std::string& file, uint32_t line) {

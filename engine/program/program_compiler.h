@@ -23,20 +23,20 @@ struct ProgramCompiler {
 /// touchstone_program_compiler beside the running program: at most 5 s of a processor, 1 GiB, and no file.
 [[nodiscard]] ProgramCompiler installedProgramCompiler();
 
-/// A compiler that has started before there is anything to compile: nine tenths of its time go by with what
+/// Compilers that have started before there is anything to compile: nine tenths of their time go by with what
 /// is the same for each program. One thread.
 class WaitingCompiler {
   public:
     explicit WaitingCompiler(ProgramCompiler compiler) : compiler_(std::move(compiler)) {}
 
-    /// Starts one where none waits.
-    void start();
-    /// The one that waits, which waits no more; null: none.
-    [[nodiscard]] std::unique_ptr<WaitingProcess> take() { return std::move(process_); }
+    /// Starts one where fewer than `wanted` wait.
+    void start(size_t wanted = 1);
+    /// The one that has waited longest, which waits no more; null: none.
+    [[nodiscard]] std::unique_ptr<WaitingProcess> take();
 
   private:
     ProgramCompiler compiler_;
-    std::unique_ptr<WaitingProcess> process_;
+    std::vector<std::unique_ptr<WaitingProcess>> processes_; ///< the oldest first
 };
 
 /// SPIR-V with one function, whose uniform block has the source's parameters. Throws Error with the line and

@@ -41,6 +41,8 @@ class MaterialController {
     /// The materials of the current or next scene; for displaying effective values.
     [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
     [[nodiscard]] bool working() const { return live_.busy(); }
+    /// An edit is being compiled or made: `update` has something to do before the next frame.
+    [[nodiscard]] bool onTheWay() { return live_.busy() || programs_.compiling(); }
     [[nodiscard]] double seconds() const { return seconds_; } ///< duration of the last recompilation
 
     /// To the open file, or to another one, which then becomes the open one; once the last change is in

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kSilence = 0.2; ///< s without a key before a text is compiled
+constexpr double kSilence = 0.15; ///< s without a key before a text is compiled
 constexpr const char* kValues = "parameters";
 
 bool declares(const std::shared_ptr<const SurfaceProgram>& program, const std::string& name,

@@ -50,7 +50,7 @@ class ProgramEditor {
     /// Index in `sources` of a material that has one.
     [[nodiscard]] size_t indexOf(size_t material) const { return static_cast<size_t>(sourceOf_[material]); }
 
-    /// A text as somebody types it: compiled when nothing has been typed for a fifth of a second.
+    /// A text as somebody types it: compiled when nothing has been typed for 0.15 s.
     void type(size_t source, std::string text);
     /// Back to what the file has.
     void revert(size_t source);
@@ -61,6 +61,8 @@ class ProgramEditor {
 
     [[nodiscard]] bool edited() const;  ///< there are texts that no file has
     [[nodiscard]] bool pending() const; ///< a text is being compiled, or soon will be
+    /// A text is being compiled, or the result is not taken up yet.
+    [[nodiscard]] bool compiling() { return worker_.busy(); }
     /// Why texts cannot be saved, with a remedy; empty: they can. One that does not compile would make the
     /// surface plain.
     [[nodiscard]] std::string saveProblem() const;

@@ -15,7 +15,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{50};
+constexpr std::chrono::milliseconds kLookEvery{10};
+/// s without anything to compile, after which a second compiler gets ready. Its tenth of a second of a
+/// processor is not taken while the last text is on its way into touch and picture.
+constexpr double kQuiet = 0.5;
 
 /// The number of "line 12"; 0: none.
 unsigned lineOf(std::string_view place) {
@@ -104,13 +107,21 @@ std::vector<ProgramReport> ProgramWorker::take() {
     return std::exchange(finished_, {});
 }
 
+bool ProgramWorker::busy() {
+    const std::lock_guard lock(mutex_);
+    return compiling_ || !wanted_.empty() || !finished_.empty();
+}
+
 void ProgramWorker::run() {
     WaitingCompiler compiler(installedProgramCompiler());
+    double last = secondsNow(); // time of the last job
     while (!stop_) {
-        compiler.start(); // the next text is compiled the sooner
+        compiler.start(secondsNow() - last > kQuiet ? 2 : 1); // the next texts are compiled the sooner
         std::optional<Job> job = next();
         if (!job)
             job = changedFile();
+        if (job)
+            last = secondsNow();
         if (job && job->report.program == nullptr)
             compileNow(*std::move(job), compiler);
         else if (job)
@@ -189,12 +200,18 @@ bool ProgramWorker::superseded(const Job& job) {
 
 void ProgramWorker::compileNow(Job job, WaitingCompiler& compiler) {
     ProgramReport& report = job.report;
+    {
+        const std::lock_guard lock(mutex_);
+        compiling_ = true;
+    }
     try {
         auto compiled = compileSurfaceProgram(
             job.name, report.text, job.file, [&] { return superseded(job); }, &compiler);
         (void)program::translated(compiled->source, compiled->spirv); // the hand must be able to run it, too
         report.program = std::move(compiled);
     } catch (const Cancelled&) {
+        const std::lock_guard lock(mutex_);
+        compiling_ = false;
         return;
     } catch (const Error& error) {
         report.line = lineOf(error.place());
@@ -203,6 +220,7 @@ void ProgramWorker::compileNow(Job job, WaitingCompiler& compiler) {
         report.problem = error.what();
     }
     const std::lock_guard lock(mutex_);
+    compiling_ = false;
     if (generation_ == job.generation)
         finished_.push_back(std::move(report));
 }

@@ -41,7 +41,7 @@ class ProgramWorker {
   public:
     struct Source {
         std::string name{};           ///< as messages show it
-        std::filesystem::path file{}; ///< looked at twenty times a second; empty: it is in the model
+        std::filesystem::path file{}; ///< looked at a hundred times a second; empty: it is in the model
         std::string text{};           ///< as it was compiled last
     };
 
@@ -59,6 +59,8 @@ class ProgramWorker {
     void measure(size_t source, std::shared_ptr<const SurfaceProgram> program);
     /// Finished since the last call.
     [[nodiscard]] std::vector<ProgramReport> take();
+    /// A text is being compiled, or `take` has something to return.
+    [[nodiscard]] bool busy();
 
   private:
     struct Known : Source {
@@ -88,6 +90,7 @@ class ProgramWorker {
     std::mutex mutex_;
     std::condition_variable wake_;
     // All below by mutex_.
+    bool compiling_ = false;
     uint64_t generation_ = 0; ///< of `begin`
     std::vector<Known> sources_;
     std::map<size_t, Wanted> wanted_;

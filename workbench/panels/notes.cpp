@@ -212,7 +212,7 @@ constexpr std::array kNotes{
     Note{"followProbe", "Edit the material that is touched"},
     Note{"program.edit", "The program's source; what compiles is felt and seen at once"},
     Note{"program.text",
-         "GLSL (docs/programs.md); compiled when nothing has been typed for a fifth of a second; Space also "
+         "GLSL (docs/programs.md); compiled when nothing has been typed for 0.15 s; Space also "
          "switches the force off"},
     Note{"program.revert", "Back to the source that the file has"},
     Note{"reset.", "Back to what holds when the file states nothing"},
