@@ -4,6 +4,7 @@
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/physics.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,13 @@ std::vector<bool> spokenFor(const Scene& scene, const Physics& physics) {
 } // namespace
 
 void loosen(Scene& scene) {
+    if (std::ranges::any_of(scene.meshes, [](const Mesh& mesh) {
+            return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
+        })) {
+        scene.warnings.push_back(
+            {"", "is not made loose: it has soft bodies, which rigid bodies do not meet"});
+        return;
+    }
     auto physics =
         scene.physics != nullptr ? std::make_shared<Physics>(*scene.physics) : std::make_shared<Physics>();
     const std::vector<bool> spoken = spokenFor(scene, *physics);

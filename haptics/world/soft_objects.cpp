@@ -350,13 +350,15 @@ bool SoftObjects::restore(std::span<const std::byte> bytes) noexcept {
         return false;
     StateSource from(bytes.data());
     Clock clock;
+    Input gathered, given;
     from.get(&clock, 1);
-    from.get(&gathered_, 1);
-    from.get(&given_, 1);
+    from.get(&gathered, 1);
+    from.get(&given, 1);
     if (!(clock.fraction >= 0.0 && clock.fraction <= 1.0 && clock.pending >= 0.0 &&
-          clock.pending <= kInterval && clock.interval < UINT64_MAX - 8))
+          clock.pending <= kInterval && clock.interval < UINT64_MAX - 8 && wellFormed(gathered) &&
+          wellFormed(given)))
         return false;
-    bool sound = wellFormed(gathered_) && wellFormed(given_);
+    bool sound = true;
     for (uint64_t i = 0; i < kStates; ++i)
         for (size_t b = 0; b < bodies_.size(); ++b) {
             Calm calm;
@@ -378,10 +380,8 @@ bool SoftObjects::restore(std::span<const std::byte> bytes) noexcept {
             sound = sound && finite;
             publishState(keptState(clock.interval, i), b);
         }
-    if (!sound) {
-        gathered_ = {};
-        given_ = {};
-    }
+    gathered_ = sound ? gathered : Input{};
+    given_ = sound ? given : Input{};
     for (size_t b = 0; b < bodies_.size(); ++b)
         publishInterval(clock.interval, b);
     moment_ = {clock.interval, clock.fraction};

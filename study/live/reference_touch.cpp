@@ -1,5 +1,7 @@
 #include "study/live/reference_touch.h"
 
+#include "engine/scene/mesh_deformation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,6 +36,12 @@ TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
     return error;
 }
 
+bool hasSoftBodies(const Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) {
+        return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
+    });
+}
+
 } // namespace
 
 HapticSettings referenceOf(const HapticSettings& settings) {
@@ -49,8 +57,9 @@ HapticSettings referenceOf(const HapticSettings& settings) {
 }
 
 void ReferenceTouch::enter(std::shared_ptr<const HapticScene> scene, ScenePtr source) {
-    // Bodies are where they are by all ticks before: this one does not have them.
-    scene_ = source != nullptr && source->physics != nullptr ? nullptr : std::move(scene);
+    // Bodies, rigid or soft, are where they are by all ticks before: this one does not have them.
+    scene_ = source != nullptr && (source->physics != nullptr || hasSoftBodies(*source)) ? nullptr
+                                                                                         : std::move(scene);
     world_ = scene_ != nullptr ? WorldState(std::move(source), *scene_) : WorldState();
     state_.forgetTouch();
     state_.mustLeave = true;

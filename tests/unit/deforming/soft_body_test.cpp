@@ -1,9 +1,11 @@
 // Cloth and jelly under a hand: exactness in every tick, force over displacement, return, replay, bad input.
+#include "engine/import/volume_file/volume_edits.h"
 #include "haptics/state/touch_checkpoint.h"
 #include "haptics/world/soft_objects.h"
 #include "tests/support/gltf_maker.h"
 #include "tests/unit/deforming/deforming_bench.h"
 
+#include <cstring>
 #include <random>
 
 namespace touchstone::test {
@@ -246,6 +248,46 @@ TEST(SoftBodies, StatesGoOnToTheLastBit) {
         EXPECT_EQ(again.hand.world.poseHash(), hashes[1501]);
         kept.pop_back();
         EXPECT_FALSE(again.hand.world.restoreBodies(kept));
+    }
+}
+
+TEST(SoftBodies, ADamagedStateIsRefusedAndChangesNothing) {
+    const HapticSettings settings = softSettings(0.001, 0.3);
+    const auto press = [](SoftBench& bench) {
+        for (int k = 0; k < 600; ++k)
+            bench.feel({0.001, kTop + 0.01 - 2.5e-5 * k, 0.0015});
+    };
+    SoftBench bench(kJelly, settings, false), whole(kJelly, settings, false);
+    press(bench);
+    press(whole);
+    const std::vector<std::byte> kept = bench.hand.world.bodyState();
+    // The fraction, and with it the count of pushes, wherever that stands.
+    const double bad = -1.0;
+    for (size_t at = 32; at + 8 <= std::min<size_t>(kept.size(), 16384); at += 8) {
+        std::vector<std::byte> damaged = kept;
+        const uint64_t many = uint64_t{1} << 40;
+        std::memcpy(damaged.data() + 8, &bad, sizeof bad);
+        std::memcpy(damaged.data() + at, &many, sizeof many);
+        ASSERT_FALSE(bench.hand.world.restoreBodies(damaged)) << at;
+        ASSERT_TRUE(bench.hand.world.bodyState() == kept) << at << ": what is refused changes nothing";
+    }
+    for (int k = 0; k < 50; ++k) {
+        bench.feel({0.001, kTop - 0.005, 0.0015});
+        whole.feel({0.001, kTop - 0.005, 0.0015});
+        ASSERT_EQ(bench.hand.world.poseHash(), whole.hand.world.poseHash()) << k;
+    }
+}
+
+/// Of --loose: no scene has both kinds of bodies.
+TEST(SoftBodies, AreNotMadeLoose) {
+    LoadOptions options;
+    options.edits = withLoose({});
+    for (const std::string& path : {kJelly, kCloth}) {
+        const ScenePtr scene = loadScene(path, options);
+        EXPECT_EQ(scene->physics, nullptr) << path;
+        EXPECT_TRUE(std::ranges::any_of(scene->warnings, [](const Warning& warning) {
+            return warning.message.find("not made loose") != std::string::npos;
+        })) << path;
     }
 }
 

@@ -80,6 +80,13 @@ TEST(LiveError, IsNoneToTheLastBitWhereTheRungsAreTheReferences) {
     }
 }
 
+/// Their vertices are where all ticks before put them, which the reference does not have.
+TEST(LiveError, SoftBodiesAreNotCompared) {
+    const LiveErrorFigures figures = figuresOf("jelly.glb", kExact, 1500);
+    EXPECT_EQ(figures.compared, 0u);
+    EXPECT_EQ(figures.comparedShare, 0.0);
+}
+
 TEST(LiveError, TellsAnErrorThatWasPutIn) {
     const TouchedScene scene = test::touchedScene("doughnut.glb");
     std::vector<TickRecord> records = lived(scene, kExact, 2000);
