@@ -67,7 +67,8 @@ class ExperimentWindowTest : public testing::Test {
         return text.empty() ? Json{{"update", 0}, {"page", ""}} : Json::parse(text);
     }
     Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        for (int i = 0; i < 1200; ++i) {
+        const auto end = std::chrono::steady_clock::now() + kPatience;
+        while (std::chrono::steady_clock::now() < end) {
             const Json now = status();
             if (now["update"] > 0 && holds(now))
                 return now;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -123,7 +124,8 @@ std::string ballVolume(const std::filesystem::path& folder) {
     for (int voxel = 0; voxel < kSide * kSide * kSide; ++voxel) {
         const double x = voxel % kSide - 11.5, y = voxel / kSide % kSide - 11.5,
                      z = voxel / (kSide * kSide) - 11.5;
-        nrrd += static_cast<char>(std::clamp(200.0 - 10.0 * std::sqrt(x * x + y * y + z * z), 0.0, 250.0));
+        nrrd += static_cast<char>(
+            static_cast<uint8_t>(std::clamp(200.0 - 10.0 * std::sqrt(x * x + y * y + z * z), 0.0, 250.0)));
     }
     std::string file = (folder / "ball.nrrd").string();
     std::ofstream(file, std::ios::binary) << nrrd;

@@ -4,6 +4,7 @@
 #include "tests/support/program.h"
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -11,6 +12,14 @@
 #include <vector>
 
 namespace touchstone::test {
+
+/// How long a test waits for what a window is to show: long enough for a machine that is busy, and for the
+/// sanitizers.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr std::chrono::seconds kPatience{600};
+#else
+inline constexpr std::chrono::seconds kPatience{180};
+#endif
 
 /// What a screen showed at one moment.
 struct ScreenPicture {

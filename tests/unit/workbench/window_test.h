@@ -55,7 +55,8 @@ class WindowTest : public testing::Test {
 
     /// Waits for a status that says so, and returns it.
     Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        for (int i = 0; i < 2000; ++i) {
+        const auto end = std::chrono::steady_clock::now() + kPatience;
+        while (std::chrono::steady_clock::now() < end) {
             const Json now = status();
             if (now["update"] > 0 && holds(now))
                 return now;
