@@ -78,7 +78,7 @@ GpuPrograms::GpuPrograms(const Gpu::Impl& gpu, const Pipelines& pipelines, const
         const SurfaceProgram& program = *programs_[m].compiled;
         const std::vector<std::byte> values =
             program::parameterBlock(program.spirv, program.source.parameters, programs_[m].values);
-        std::memcpy(parameters_.mapped + at, values.data(), std::min(values.size(), kBlock));
+        std::copy_n(values.begin(), std::min(values.size(), kBlock), parameters_.mapped + at);
         sets_[m] = makeSet(gpu, pipelines.programSet(), at, kBlock);
         at += block;
     }

@@ -146,9 +146,11 @@ SoftSolver::SoftSolver(const SoftBody& law, const SoftShape& shape, double scale
     btSoftBody& body = *bullet_->body;
     btSoftBody::Material& material = *body.m_materials[0];
     material.m_kLST = static_cast<btScalar>(law.stretch);
+    // Bullet's volume has a sign, and its normals are to face outwards.
+    const bool inward = law.kind == SoftKind::Jelly && signedVolumeOf(rest_) < 0.0;
     for (size_t t = 0; t + 2 < triangles_.size(); t += 3)
-        body.appendFace(static_cast<int>(triangles_[t]), static_cast<int>(triangles_[t + 1]),
-                        static_cast<int>(triangles_[t + 2]));
+        body.appendFace(static_cast<int>(triangles_[t]), static_cast<int>(triangles_[t + (inward ? 2 : 1)]),
+                        static_cast<int>(triangles_[t + (inward ? 1 : 2)]));
     for (const auto& [a, b] : linksOf(triangles_))
         body.appendLink(static_cast<int>(a), static_cast<int>(b));
     body.m_cfg.collisions = 0;
@@ -179,13 +181,17 @@ SoftSolver::SoftSolver(const SoftBody& law, const SoftShape& shape, double scale
 SoftSolver::~SoftSolver() = default;
 
 double SoftSolver::volumeOf(const SoftState& state) const noexcept {
+    return std::abs(signedVolumeOf(state));
+}
+
+double SoftSolver::signedVolumeOf(const SoftState& state) const noexcept {
     double sum = 0.0;
     for (size_t t = 0; t + 2 < triangles_.size(); t += 3) {
         const glm::dvec3 a(state.places[triangles_[t]]), b(state.places[triangles_[t + 1]]),
             c(state.places[triangles_[t + 2]]);
         sum += glm::dot(a, glm::cross(b, c));
     }
-    return std::abs(sum) / (6.0 * kUnits * kUnits * kUnits);
+    return sum / (6.0 * kUnits * kUnits * kUnits);
 }
 
 void SoftSolver::load(const SoftState& state) {

@@ -77,6 +77,8 @@ class SoftSolver {
     [[nodiscard]] static bool asleep(const SoftState& state) noexcept { return state.calm >= kSoftCalm; }
 
   private:
+    [[nodiscard]] double signedVolumeOf(const SoftState& state) const noexcept;
+
     struct Bullet;
     struct Pressed;
     struct Patch;

@@ -4,6 +4,7 @@
 #include "engine/import/volume_file/volume_edits.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/mesh_deformation.h"
+#include "engine/scene/soft_body.h"
 #include "haptics/program/felt_program.h"
 
 #include <fstream>
@@ -123,6 +124,19 @@ void add(Hash64& hash, const Node& node) {
     add(hash, node.matrix);
 }
 
+void add(Hash64& hash, const SoftBody& soft) {
+    hash.add(static_cast<int>(soft.kind));
+    for (const double number :
+         {soft.mass, soft.stretch, soft.shapeFrequency, soft.volumeStiffness, soft.damping, soft.friction,
+          soft.thickness, soft.touchRadius, soft.breath, soft.breathTime})
+        hash.add(number);
+    for (const std::optional<glm::dvec3>& corner : {soft.fixedLow, soft.fixedHigh})
+        for (int axis = 0; corner && axis < 3; ++axis)
+            hash.add((*corner)[axis]);
+    for (const int instance : soft.over)
+        hash.add(instance);
+}
+
 /// Size and hash of a file's bytes; zeros where it cannot be read.
 void readBytes(const std::filesystem::path& path, SceneIdentity& identity) {
     std::ifstream file(path, std::ios::binary);
@@ -162,6 +176,9 @@ uint64_t feltHash(const HapticScene& scene, const Scene& source) {
             if (mesh.deformation != nullptr)
                 add(hash, *mesh.deformation);
     }
+    for (const Mesh& mesh : source.meshes)
+        if (mesh.deformation != nullptr && mesh.deformation->soft != nullptr)
+            add(hash, *mesh.deformation->soft);
     return hash.value();
 }
 

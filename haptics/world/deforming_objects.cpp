@@ -39,7 +39,7 @@ DeformingObjects::DeformingObjects(ScenePtr source, const Animation& animation, 
         std::max<int64_t>(static_cast<int64_t>(std::ceil(animation.duration * kPublicationRate - 1e-9)), 1);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         const HapticObject& object = *haptic.objects[k];
-        if (object.instance < 0 || object.shape != nullptr || object.indices.empty())
+        if (object.instance < 0 || object.shape != nullptr || object.indices.empty() || object.cut)
             continue;
         const Instance& instance = source_->instances[static_cast<size_t>(object.instance)];
         const auto& deformation = source_->meshes[static_cast<size_t>(instance.mesh)].deformation;

@@ -19,7 +19,7 @@ constexpr uint32_t kLongAsleep = body::kSoftCalm + 6;
 constexpr auto kPause = std::chrono::microseconds(400);
 
 const SoftBody* softBodyOf(const Scene& scene, const HapticObject& object) {
-    if (object.instance < 0 || object.shape != nullptr || object.indices.empty())
+    if (object.instance < 0 || object.shape != nullptr || object.indices.empty() || object.cut)
         return nullptr;
     const auto mesh = static_cast<size_t>(scene.instances[static_cast<size_t>(object.instance)].mesh);
     const auto& deformation = scene.meshes[mesh].deformation;
@@ -78,7 +78,7 @@ std::unique_ptr<SoftObjects> SoftObjects::of(const ScenePtr& source, const Hapti
     std::vector<size_t> objects;
     for (size_t k = 0; source != nullptr && k < haptic.objects.size(); ++k)
         if (softBodyOf(*source, *haptic.objects[k]) != nullptr &&
-            haptic.objects[k]->vertices.size() <= kMaxSoftVertices)
+            haptic.objects[k]->vertices.size() - 1 <= kMaxSoftVertices) // without the spare one
             objects.push_back(k);
     return objects.empty() ? nullptr : std::unique_ptr<SoftObjects>(new SoftObjects(source, haptic, objects));
 }

@@ -216,7 +216,8 @@ class Charts {
         }
         const auto mark = [&](double time, const char* text) {
             const float wide = ImGui::CalcTextSize(text).x;
-            const float x = std::clamp(xOf(end() - time) - 0.5f * wide, left_, right() - wide);
+            const float x =
+                std::clamp(xOf(end() - time) - 0.5f * wide, left_, std::max(left_, right() - wide));
             draw_.AddText(ImVec2(x, y + bar), kLabel, text);
         };
         draw_.AddText(ImVec2(corner_.x, y + bar), kLabel, "time");

@@ -4,8 +4,10 @@
 #include "engine/scene/mesh_deformation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -16,6 +18,37 @@ constexpr const char* kSoft = "TOUCHSTONE_soft_body";
 constexpr double kLargest = 1e6;
 /// kg: below it a float's arithmetic with the hand's forces loses the vertices.
 constexpr double kLeastMass = 1e-4;
+
+size_t placesOf(const Mesh& mesh) {
+    std::vector<std::array<float, 3>> places;
+    for (const glm::vec3& p : mesh.positions)
+        places.push_back({p.x, p.y, p.z});
+    std::ranges::sort(places);
+    return static_cast<size_t>(std::ranges::unique(places).begin() - places.begin());
+}
+
+/// How thick the points are, as a share of their size: 0 where all lie in one plane.
+double thickness(const std::vector<glm::dvec3>& points) {
+    const auto farthest = [&](const auto& distance) {
+        glm::dvec3 found(0.0);
+        double most = -1.0;
+        for (const glm::dvec3& p : points)
+            if (const double away = distance(p); away > most) {
+                most = away;
+                found = p;
+            }
+        return std::pair(found, std::max(most, 0.0));
+    };
+    const glm::dvec3 origin = points.empty() ? glm::dvec3(0.0) : points.front();
+    const auto [a, length] = farthest([&](const glm::dvec3& p) { return glm::distance(p, origin); });
+    const glm::dvec3 along = (a - origin) / length;
+    const auto [b, breadth] =
+        farthest([&](const glm::dvec3& p) { return glm::length(glm::cross(p - origin, along)); });
+    const glm::dvec3 normal = glm::cross(along, b - origin) / breadth;
+    const double height =
+        farthest([&](const glm::dvec3& p) { return std::abs(glm::dot(p - origin, normal)); }).second;
+    return length > 0.0 && breadth > 0.0 ? height / length : 0.0;
+}
 
 /// Reads one extension after the other. `fail` of the context leaves out what it is called for.
 class SoftBodyReader {
@@ -106,8 +139,18 @@ void SoftBodyReader::readOver(SoftBody& body) const {
         if (!value.is_number_unsigned() || value.get<uint64_t>() >= forest_.nodeOfGltf.size())
             context_.fail(place_ + ".over", "names a node that does not exist");
         const int node = forest_.nodeOfGltf[value.get<size_t>()];
-        for (const int instance : instancesOf(node))
+        for (const int instance : instancesOf(node)) {
+            const Instance& placed = scene_.instances[static_cast<size_t>(instance)];
+            std::vector<glm::dvec3> points;
+            for (const glm::vec3& p : scene_.meshes[static_cast<size_t>(placed.mesh)].positions)
+                points.emplace_back(placed.sceneFromMesh * glm::dvec4(glm::dvec3(p), 1.0));
+            constexpr double kThinnest = 0.01; // a vertex at its fastest does not pass it in a step
+            if (!(thickness(points) >= kThinnest))
+                context_.fail(place_ + ".over",
+                              "names a flat mesh, which a soft body would pass: give it a thickness "
+                              "of a hundredth of its length");
             body.over.push_back(instance);
+        }
     }
 }
 
@@ -115,9 +158,9 @@ void SoftBodyReader::readOver(SoftBody& body) const {
 void SoftBodyReader::checkMesh(const Mesh& mesh) const {
     if (mesh.indices.empty())
         context_.fail(place_, "is at a mesh without triangles");
-    if (mesh.positions.size() > 4 * kMaxSoftVertices)
-        context_.fail(place_, "is at a mesh of " + std::to_string(mesh.positions.size()) +
-                                  " vertices; a soft body has at most " + std::to_string(kMaxSoftVertices));
+    if (const size_t places = placesOf(mesh); places > kMaxSoftVertices)
+        context_.fail(place_, "is at a mesh of vertices at " + std::to_string(places) +
+                                  " places; a soft body has at most " + std::to_string(kMaxSoftVertices));
     double area = 0.0;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
@@ -165,7 +208,7 @@ void SoftBodyReader::read(size_t n) {
         checkMesh(scene_.meshes[static_cast<size_t>(scene_.instances[static_cast<size_t>(instance)].mesh)]);
         if (std::ranges::find(body->over, instance) != body->over.end())
             context_.fail(place_ + ".over", "names the soft body itself");
-        if (made_++ == kMaxSoftBodies)
+        if (made_ >= kMaxSoftBodies)
             context_.fail(place_, "is beyond the " + std::to_string(kMaxSoftBodies) +
                                       " soft meshes that a scene can have");
         const int own = meshFor(instance);
@@ -178,6 +221,7 @@ void SoftBodyReader::read(size_t n) {
         mesh.sources.resize(mesh.positions.size());
         std::iota(mesh.sources.begin(), mesh.sources.end(), 0u);
         mesh.deformation = std::move(deformation);
+        ++made_;
     }
 }
 

@@ -258,6 +258,7 @@ std::unique_ptr<const HapticObject> buildCutObject(const Scene& scene, int insta
     object->name = mesh.name;
     object->instance = instanceIndex;
     object->material = mesh.material;
+    object->cut = &mesh != &whole;
     object->oneSided = use.oneSided && mesh.deformation == nullptr;
 
     std::vector<glm::vec3> local = placeVertices(mesh, whole, instance.sceneFromMesh, workspaceFromScene,

@@ -79,8 +79,11 @@ struct HapticObject {
     bool closed = false;            ///< every edge has an even number of triangles
     bool anySmooth = false;
     bool oneSided = false; ///< the material's `sides` is front: felt only from outside
-    RayTree rays;          ///< Embree's, for rays; built on demand
-    TriangleTree tree;     ///< for proximity queries
+    /// Part of a mesh (buildCutObject): `sourceIndices` count the part's vertices, not the scene's, so that
+    /// nothing may take them for those of a mesh that deforms.
+    bool cut = false;
+    RayTree rays;      ///< Embree's, for rays; built on demand
+    TriangleTree tree; ///< for proximity queries
     /// Null but in a world's own copy of an object that deforms (world/deforming_objects.h): then the
     /// vertices of this tick, instead of `vertices`, `normals` and `tree`, which are those of the static
     /// pose.
