@@ -22,6 +22,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace touchstone::server {
 namespace {
@@ -232,9 +233,17 @@ int onEvent(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t 
 }
 
 int onTimerEvent(lws*, lws_callback_reasons reason, void*, void*, size_t) {
-    if (reason == LWS_CALLBACK_RAW_RX_FILE)
+    switch (reason) {
+    case LWS_CALLBACK_RAW_RX_FILE:
         onTimer();
-    return 0;
+        return 0;
+    case LWS_CALLBACK_HTTP:
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: // a client may ask for any protocol by its name
+    case LWS_CALLBACK_ESTABLISHED:
+        return -1;
+    default:
+        return 0;
+    }
 }
 
 const lws_protocols kProtocols[]{{"touchstone", onEvent, 0, 64 * 1024, 0, nullptr, 0},
@@ -266,9 +275,10 @@ class RawTerminal {
     bool raw_ = false;
 };
 
-/// Every socket of the process that listens by TCP does so at the address. (Debian 12's libwebsockets listens
-/// at all addresses where it cannot bind to one, and says nothing.)
+/// The process listens by TCP, and every socket of it that does so is at the address. (Debian 12's
+/// libwebsockets listens at all addresses where it cannot bind to one, and says nothing.)
 bool listensOnlyAt(const std::string& address) {
+    bool listens = false;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
         const int descriptor = std::atoi(entry.path().filename().c_str());
         int accepts = 0;
@@ -283,8 +293,9 @@ bool listensOnlyAt(const std::string& address) {
         if (bound.ss_family != AF_INET || inet_pton(AF_INET, address.c_str(), &wanted) != 1 ||
             reinterpret_cast<const sockaddr_in&>(bound).sin_addr.s_addr != wanted.s_addr)
             return false;
+        listens = true;
     }
-    return true;
+    return listens;
 }
 
 /// A server on the address, in the form that libwebsockets wants.
@@ -292,7 +303,9 @@ lws_vhost* listenTo(const ServeOptions& options, lws_context_creation_info tcp) 
     tcp.vhost_name = "tcp";
     tcp.iface = isAnyAddress(options.address) ? nullptr : options.address.c_str();
     tcp.port = options.port;
-    tcp.options |= LWS_SERVER_OPTION_DISABLE_IPV6; // else it takes no notice of an IPv4 address
+    tcp.alpn = "http/1.1"; // HTTP/2 has no Host header, and browsers would take it over TLS
+    // Else it takes no notice of an IPv4 address, and tries again later where it cannot bind.
+    tcp.options |= LWS_SERVER_OPTION_DISABLE_IPV6 | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
     if (!options.certificate.empty()) {
         tcp.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
         tcp.ssl_cert_filepath = options.certificate.c_str();
@@ -369,16 +382,17 @@ void serve(const ServeOptions& options, const std::string& web) {
     network.web = web;
     network.names = ownNames(options);
     const std::string token = newToken();
-    const std::string tokenFile = options.port != 0 ? writeToken(token, options.port) : std::string();
     TouchServer server(options, token);
     network.server = &server;
     listen(options);
+    // Not before: another server that has the port keeps its file.
+    const std::string tokenFile = options.port != 0 ? writeToken(token, options.port) : std::string();
     printPlaces(options, token, tokenFile);
     const RawTerminal terminal;
     network.timer->set(monotonicNow());
     while (stopping == 0 && lws_service(network.context, 0) >= 0) {
     }
-    lws_context_destroy(network.context);
+    lws_context_destroy(std::exchange(network.context, nullptr)); // a signal may still come
     if (!tokenFile.empty())
         (void)unlink(tokenFile.c_str());
     if (!options.socket.empty())

@@ -85,6 +85,10 @@ void ProxySolver::adoptReference(int reference) noexcept {
     const glm::dvec3 travel = motions_[index].workspaceFromObject.inverse().direction(state_.travel);
     const double workspaceTravel = glm::length(travel);
     travel_ = workspaceTravel / motions_[index].workspaceFromObject.scale;
+    // A surface that gives way under a hand at rest takes the proxy along: it must not creep after it
+    // (cover).
+    if (const MeshInstant* instant = scene_.objects[index]->instant; instant != nullptr) [[unlikely]]
+        travel_ += instant->travel;
     heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
     if (scene_.plan.oneSided)
         state_.candidates.standsClearBy(

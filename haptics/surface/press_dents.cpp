@@ -68,7 +68,8 @@ void pressDents(const HapticScene& scene, ObjectMotions motions, int reference, 
                 double speed, DentPress& press, SurfaceSample& feel) noexcept {
     const auto k = static_cast<size_t>(contact.object);
     const LocalDeformation& law = scene.materials[static_cast<size_t>(feel.material)].deformation;
-    if (!law.on())
+    // What has no stiffness here (a map, or vertices, may say 0) has no load that could press it in.
+    if (!law.on() || !(feel.stiffness > 0.0))
         return;
     Dents& dents = press.dents;
     const double radius = law.radius * scene.workspaceFromScene.scale, dt = press.dt;

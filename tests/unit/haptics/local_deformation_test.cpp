@@ -167,6 +167,16 @@ TEST(LocalDeformation, ADeviceMakesNoDentBeyondItsForce) {
     EXPECT_NEAR(bench.state[0].dents.depth[0], 1.0 / kGround, 1e-6);
 }
 
+TEST(LocalDeformation, ASurfaceWithoutStiffnessIsNotPressedIn) {
+    Scene scene = softPlane(0.1);
+    scene.materials[0].haptic.deformationStiffness = {}; // then the ground is as stiff as the contact
+    scene.meshes[0].stiffness.assign(scene.meshes[0].positions.size(), 0.0f);
+    TouchBench bench = benchOf(scene);
+    hold(bench, {0.0, -0.002, 0.0}, 10);
+    EXPECT_EQ(bench.output.force, glm::dvec3(0.0));
+    EXPECT_NEAR(bench.output.proxy.y, 0.0, 1e-6) << "it is 0 / 0 else";
+}
+
 TEST(LocalDeformation, SwitchedOffTheSurfaceIsHard) {
     TouchBench soft = benchOf(softPlane(0.1));
     Scene plain = softPlane(0.1);

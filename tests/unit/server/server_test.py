@@ -143,6 +143,9 @@ class Access(Server):
         self.assertFalse(opens(Host=own, Origin="null"))
         self.assertFalse(opens(Host=f"evil.example:{self.port}"))
         self.assertFalse(opens(Host=f"127.0.0.1.evil.example:{self.port}"))
+        # The server's own timer is a protocol with a name, too.
+        self.assertFalse(opens(Host="evil.example", Origin="http://evil.example", Sec_WebSocket_Protocol="timer"))
+        self.assertFalse(opens(Host=own, Sec_WebSocket_Protocol="timer"))
 
     def test_gives_the_scene_to_who_has_the_token(self):
         self.client().event("scene")
@@ -177,6 +180,8 @@ class OffLoopback(unittest.TestCase):
             certificate, key = certify(pathlib.Path(folder))
             self.assertIn("need each other", self.refusal("--certificate", certificate))
             self.assertIn("need each other", self.refusal("--key", key))
+            self.assertIn("cannot be listened to",  # nobody's address
+                          self.refusal("--listen", "192.0.2.1", "--certificate", certificate, "--key", key))
             os.chmod(key, 0o644)
             self.assertIn("everybody may read it", self.refusal("--certificate", certificate, "--key", key))
 
@@ -224,6 +229,7 @@ class Tls(Server):
             pass
         self.assertEqual(listening(self.port), [("127.0.0.2", self.port)])
         context = ssl.create_default_context(cafile=self.certificate)
+        context.set_alpn_protocols(["h2", "http/1.1"])  # as browsers do
         for host, status in ((f"127.0.0.2:{self.port}", 200), (f"localhost:{self.port}", 200), (f"evil.example:{self.port}", 403)):
             request = http.client.HTTPSConnection("127.0.0.2", self.port, timeout=10, context=context)
             request.request("GET", "/", headers={"Host": host})
