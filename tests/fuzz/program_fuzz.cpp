@@ -188,7 +188,7 @@ void feelHere(const RegisterProgram& program, std::mt19937& random) {
 Words randomModule(std::mt19937& random) {
     Words words = {0x07230203, 0x00010000, 0, static_cast<uint32_t>(1 + random() % 100), 0};
     for (size_t instructions = random() % 60; instructions > 0; --instructions) {
-        const uint32_t count = 1 + random() % 6;
+        const auto count = static_cast<uint32_t>(1 + random() % 6);
         words.push_back(count << 16 | static_cast<uint32_t>(random() % 330));
         for (uint32_t k = 1; k < count; ++k)
             words.push_back(static_cast<uint32_t>(random() % (random() % 8 == 0 ? 0x80000000u : 100u)));
