@@ -67,7 +67,7 @@ class WindowTarget {
 
     /// Small pictures for ImGui's windows, in `kPictures` slots: RGBA8, sRGB, opaque. A slot keeps its last
     /// picture, on another device too. Throws std::invalid_argument for another size.
-    static constexpr size_t kPictures = 32;
+    static constexpr size_t kPictures = 64; ///< our scenes, and WindowMemory::kMaxRecent
     static constexpr int kPictureWidth = 208, kPictureHeight = 130;
     void setPicture(size_t place, const PixelData& pixels);
     /// Between beginFrame and endFrame, over the current content of the ImGui window, corners in its

@@ -4,6 +4,7 @@
 namespace touchstone {
 
 void WorkbenchWindow::open(const std::filesystem::path& path, const SceneChoice& choice) {
+    ++opened_;
     problem_.clear();
     state_.gallery = false;
     if (isRecording(path))
@@ -45,16 +46,19 @@ void WorkbenchWindow::takeModel() {
     } catch (const DeviceLost&) {
         throw;
     } catch (const Error& error) {
-        if (!hasModel())
-            throw;
-        unsavedChanges_.begin(); // what was to be discarded is still there
-        problem_ = error.what();
+        stayWithout(error.what());
     } catch (const std::bad_alloc&) {
-        if (!hasModel())
-            throw;
-        unsavedChanges_.begin();
-        problem_ = opening_.path().filename().string() + ": there is not enough memory for it";
+        stayWithout(opening_.path().filename().string() + ": there is not enough memory for it");
     }
+}
+
+void WorkbenchWindow::stayWithout(const std::string& problem) {
+    if (!hasModel() && (opened_ <= 1 || opening_.path() == defaultScene()))
+        throw;
+    unsavedChanges_.begin(); // what was to be discarded is still there
+    problem_ = problem;
+    if (!hasModel()) // it was chosen while the first one was on its way
+        opening_.start(defaultScene(), screen_.renderer(), {});
 }
 
 void WorkbenchWindow::show(LoadedModel loaded) {

@@ -84,6 +84,9 @@ class WorkbenchWindow {
     }
     void takeAnotherDevice(const DeviceLost& lost);
     /// Shows the model from the worker, or reports why there is none. Without any model, throws.
+    /// In a handler of what a model's opening has thrown: tells it, with the model that is shown, or else
+    /// with the sample. Throws it on for the program's first model.
+    void stayWithout(const std::string& problem);
     void takeModel();
     void show(LoadedModel loaded);
     /// Touches the material editor's result; contact is kept where possible.
@@ -166,6 +169,7 @@ class WorkbenchWindow {
     ChartSaver chartSaver_;
     StatusFile status_;
     std::string problem_;
+    size_t opened_ = 0; ///< models and recordings that were asked for
     UnsavedChangesPrompt unsavedChanges_;
     bool left_ = false;          // the user has answered the prompt for unsaved materials
     FramePace pace_{1.0 / 30.0}; // s, between frames

@@ -136,7 +136,8 @@ TEST(SoftBodies, AHandAtRestFindsAJellyAtRest) {
 /// It costs nothing while nothing happens, and wakes at a touch, or with another gravity.
 TEST(SoftBodies, ABodyAtRestSleepsUntilItIsTouched) {
     SoftBench bench(calmJelly(), softSettings(0.001, 0.0), true);
-    const glm::dvec3 away{0.0, kTop + 0.03, 0.0};
+    // Beside its pole, where all facets of a dent meet: docs/deforming.md, "What is missing".
+    const glm::dvec3 away{0.003, kTop + 0.03, 0.002};
     bench.wait(0.3, away);
     EXPECT_FALSE(bench.hand.world.still()) << "it sags";
     bench.wait(4.0, away);
@@ -146,7 +147,7 @@ TEST(SoftBodies, ABodyAtRestSleepsUntilItIsTouched) {
     EXPECT_EQ(bench.vertices(), asleep);
     for (int k = 0; k < 200; ++k) // down to 4 mm below its top, in 0.2 s
         bench.feel(away - glm::dvec3(0.0, 0.034 * k / 200.0, 0.0));
-    bench.wait(0.2, {0.0, kTop - 0.004, 0.0});
+    bench.wait(0.2, {0.003, kTop - 0.004, 0.002});
     EXPECT_FALSE(bench.hand.world.still());
     EXPECT_GT(farthest(bench.vertices(), asleep), 1e-3);
     bench.wait(4.0, away);

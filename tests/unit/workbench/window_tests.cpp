@@ -41,6 +41,18 @@ TEST_F(WindowTest, TheContactMethodCanBeChosenWhileTouching) {
     expectCleanEnd();
 }
 
+// It ended the program where the first model was not there yet.
+TEST_F(WindowTest, AMissingFileChosenWhileTheFirstIsOnItsWayIsTold) {
+    start(TOUCHSTONE_ASSETS "/torus_64800.glb", {"--hand", "simulated"});
+    until("the window", [](const Json&) { return true; });
+    openByPath("/no/such/model.glb");
+    const Json s = until("the problem and a model", [](const Json& now) {
+        return now["problem"] != "" && now["loading"] == false && now["model"] != "";
+    });
+    EXPECT_NE(s["problem"].get<std::string>().find("/no/such/model.glb"), std::string::npos);
+    expectCleanEnd();
+}
+
 TEST_F(WindowTest, TheRecordButtonRecordsWhatReplaysToTheLastBit) {
     open(kDoughnut, {"--hand", "simulated"});
     until("the hand to touch", touching);
