@@ -29,7 +29,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostClients = 16, kMostMessage = size_t{24} << 20, kMostFragments = 64;
+constexpr size_t kMostClients = 16, kMostMessage = size_t{24} << 20;
 constexpr size_t kMostQueued = 64, kMostQueuedReplies = 1000; // of states and ticks; of everything
 constexpr double kMessagesASecond = 2000.0;
 constexpr auto kUnknownFor = std::chrono::seconds(5);
@@ -307,7 +307,6 @@ lws_vhost* listenTo(const ServeOptions& options, lws_context_creation_info tcp) 
     // Else it takes no notice of an IPv4 address, and tries again later where it cannot bind.
     tcp.options |= LWS_SERVER_OPTION_DISABLE_IPV6 | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
     if (!options.certificate.empty()) {
-        tcp.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
         tcp.ssl_cert_filepath = options.certificate.c_str();
         tcp.ssl_private_key_filepath = options.key.c_str();
     }

@@ -1,23 +1,8 @@
 #include "session/session.h"
 
-#include "engine/scene/mesh_deformation.h"
-
-#include <algorithm>
 #include <utility>
 
 namespace touchstone {
-
-namespace {
-
-/// A world that sculpting makes has no thread for soft bodies yet: they would begin anew with each dab, on
-/// the servo's own time.
-bool mayBeSculpted(const ScenePtr& source) {
-    return source == nullptr || std::ranges::none_of(source->meshes, [](const Mesh& mesh) {
-               return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
-           });
-}
-
-} // namespace
 
 uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                         SceneSwap swap, bool sculpted, std::shared_ptr<DrivenObjects> driven) {
@@ -28,7 +13,7 @@ uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr sourc
         sculptor_.begin(0, nullptr, nullptr); // its worker reads what offerScene replaces
     const uint32_t number = root ? *root : servo_.offerScene(scene, source, swap, nullptr, std::move(driven));
     if (!root)
-        sculptor_.begin(number, mayBeSculpted(source) ? scene : nullptr, source);
+        sculptor_.begin(number, scene, source);
     begin({number, std::move(scene), std::move(source), std::move(identity)});
     return number;
 }
@@ -37,7 +22,7 @@ uint32_t Session::touch(std::shared_ptr<const HapticScene> scene, ScenePtr sourc
                         const HapticSettings& settings) {
     sculptor_.begin(0, nullptr, nullptr);
     const uint32_t number = servo_.offerScene(scene, source, SceneSwap::Anew, &*(settings_ = settings));
-    sculptor_.begin(number, mayBeSculpted(source) ? scene : nullptr, source);
+    sculptor_.begin(number, scene, source);
     begin({number, std::move(scene), std::move(source), std::move(identity)});
     return number;
 }

@@ -38,7 +38,11 @@ class Session {
     /// The newest scene; its number is 0 before the first.
     [[nodiscard]] const OfferedScene& scene() const { return scene_; }
     /// The servo has adopted it.
-    [[nodiscard]] bool touching() const { return scene_.number != 0 && tick().root == scene_.number; }
+    [[nodiscard]] bool touching() const { return touches(tick()); }
+    /// In that tick, of any hand.
+    [[nodiscard]] bool touches(const TickRecord& tick) const {
+        return scene_.number != 0 && tick.root == scene_.number;
+    }
 
     /// For the next tick; no-op where they are those of the last call.
     void set(const HapticSettings& settings);

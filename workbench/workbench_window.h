@@ -84,10 +84,10 @@ class WorkbenchWindow {
     }
     void takeAnotherDevice(const DeviceLost& lost);
     /// Shows the model from the worker, or reports why there is none. Without any model, throws.
+    void takeModel();
     /// In a handler of what a model's opening has thrown: tells it, with the model that is shown, or else
     /// with the sample. Throws it on for the program's first model.
     void stayWithout(const std::string& problem);
-    void takeModel();
     void show(LoadedModel loaded);
     /// Touches the material editor's result; contact is kept where possible.
     void takeMaterials();

@@ -353,8 +353,7 @@ ts_state LiveSession::state() {
 }
 
 LiveHand& LiveSession::hand(size_t number) {
-    if (number >= hands_.size())
-        refuseArgument("hand", std::to_string(number) + ", and there are " + std::to_string(hands_.size()));
+    requireBelow(number, hands_.size(), "hand");
     return *hands_[number];
 }
 
@@ -369,7 +368,7 @@ ts_state LiveSession::handState(size_t number) {
 ts_state LiveSession::stateOf(const TickRecord& tick) const {
     ts_state state{};
     const ServoLoop::Counters counters = session_->servo().counters();
-    state.touching = session_->scene().number != 0 && tick.root == session_->scene().number ? 1 : 0;
+    state.touching = session_->touches(tick) ? 1 : 0;
     state.tick = tick.tick;
     state.time = tick.time;
     setVector(state.hip, tick.output.hip);

@@ -26,21 +26,21 @@ class TickFloatMode {
     unsigned before_;
 };
 
-size_t checkedHands(size_t hands) {
-    if (hands < 1 || hands > kMaxHands)
-        refuseArgument("count", "is not within 1 .. " + std::to_string(kMaxHands));
-    return hands;
-}
-
 bool stops(const ts_path& path, size_t done) {
     return path.progress != nullptr && path.progress(path.context, done, path.count) != 0;
 }
 
 } // namespace
 
+size_t checkedHands(size_t hands) {
+    if (hands < 1 || hands > kMaxHands)
+        refuseArgument("count", "is not within 1 .. " + std::to_string(kMaxHands));
+    return hands;
+}
+
 OfflineHand::OfflineHand(std::shared_ptr<TouchedScene> scene, const HapticSettings& settings, size_t hands)
     : scene_(std::move(scene)), settings_(settings),
-      hands_(*scene_->haptic(), scene_->source(), checkedHands(hands)) {
+      hands_(*scene_->haptic(), scene_->source(), checkedHands(hands)), traces_(hands) {
     scene_->prepareFor(settings_);
 }
 
@@ -149,7 +149,7 @@ int64_t OfflineHand::tick(std::span<const ts_path> paths, size_t i, double time,
         hands_.samples[hand] = sampleAt({at[0], at[1], at[2]});
     }
     hands_.advance(time, settings_);
-    StageTracer tracer(hands_.states, hands_.traces);
+    StageTracer tracer(hands_.states, traces_);
     const realtime::TickScope scope; // outside the clock, as in `touchstone touch`
     const int64_t begin = timed ? monotonicNs() : 0;
     hands_.step(settings_, dt, tracer);

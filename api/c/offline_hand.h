@@ -12,6 +12,9 @@
 
 namespace touchstone::api {
 
+/// `hands`. Throws Refused where there are not 1..kMaxHands.
+size_t checkedHands(size_t hands);
+
 /// What a ts_hand names: hands in one world that are stepped along paths, one after the other.
 class OfflineHand final : public Object {
   public:
@@ -38,6 +41,7 @@ class OfflineHand final : public Object {
     std::shared_ptr<TouchedScene> scene_;
     HapticSettings settings_;
     SteppedHands hands_;
+    std::vector<StageTrace> traces_; ///< one a hand
     // Of the ticks made:
     bool begun_ = false;
     double last_ = 0.0; // s

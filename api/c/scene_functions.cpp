@@ -146,9 +146,7 @@ void touchPath(OfflineHand& hand, const ts_path* path, const ts_ticks* ticks, si
 
 /// Paths and (where not null) ticks of several hands.
 void touchPaths(OfflineHand& hands, const ts_path* paths, const ts_ticks* ticks, size_t count, size_t* done) {
-    if (count < 1 || count > kMaxHands)
-        refuseArgument("count", "is not within 1 .. " + std::to_string(kMaxHands));
-    const std::vector<ts_path> whole = structsOf(paths, count, "paths");
+    const std::vector<ts_path> whole = structsOf(paths, checkedHands(count), "paths");
     std::vector<TickArrays> arrays;
     if (ticks != nullptr)
         for (const ts_ticks& of : structsOf(ticks, count, "ticks"))

@@ -11,14 +11,20 @@ namespace touchstone {
 /// were never read are lost, as intended for settings and snapshots. No allocation after construction.
 template <class T>
 class TripleBuffer {
-    static_assert(std::is_nothrow_copy_assignable_v<T>, "a value that can throw has no place in the tick");
-
   public:
     explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
 
     /// Writer thread only.
     void write(const T& value) noexcept {
-        slots_[writing_].value = value;
+        static_assert(std::is_nothrow_copy_assignable_v<T>,
+                      "a value that can throw has no place in the tick");
+        back() = value;
+        publish();
+    }
+    /// Writer thread only: what `publish` hands over, for a value that is changed in place. It holds an older
+    /// one.
+    [[nodiscard]] T& back() noexcept { return slots_[writing_].value; }
+    void publish() noexcept {
         const uint8_t previous =
             middle_.exchange(static_cast<uint8_t>(writing_ | kFresh), std::memory_order_acq_rel);
         writing_ = previous & kIndex;

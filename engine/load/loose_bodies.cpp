@@ -39,9 +39,7 @@ std::vector<bool> spokenFor(const Scene& scene, const Physics& physics) {
 } // namespace
 
 void loosen(Scene& scene) {
-    if (std::ranges::any_of(scene.meshes, [](const Mesh& mesh) {
-            return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
-        })) {
+    if (hasSoftBodies(scene)) {
         scene.warnings.push_back(
             {"", "is not made loose: it has soft bodies, which rigid bodies do not meet"});
         return;

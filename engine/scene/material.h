@@ -62,6 +62,9 @@ struct FieldTexture {
     float noiseSeed = 0.0f;         ///< a whole number
     float latticeAmplitude = 0.0f;  ///< of the highest and lowest places; 0: no lattice
     float latticeWavelength = 0.0f; ///< along each axis of the mesh; 0: no lattice
+    [[nodiscard]] bool empty() const {
+        return noiseAmplitude == 0.0f && (latticeAmplitude == 0.0f || latticeWavelength == 0.0f);
+    }
     bool operator==(const FieldTexture&) const = default;
 };
 

@@ -33,6 +33,12 @@ bool MeshDeformation::drivenBy(const Animation& animation, const std::vector<boo
            });
 }
 
+bool hasSoftBodies(const Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) {
+        return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
+    });
+}
+
 DeformedVertices::DeformedVertices(const MeshDeformation& deformation)
     : deformation_(&deformation), meshFromVertex_(deformation.joints.size(), glm::dmat4(1.0)),
       weights_(deformation.weights) {}

@@ -41,6 +41,8 @@ struct MeshDeformation {
     [[nodiscard]] bool drivenBy(const Animation& animation, const std::vector<bool>& moved) const;
 };
 
+[[nodiscard]] bool hasSoftBodies(const Scene& scene);
+
 /// Evaluates a deformation in double. The constructor allocates; nothing else allocates, locks or throws.
 class DeformedVertices {
   public:

@@ -283,6 +283,8 @@ void SoftSolver::layOn(const std::vector<glm::dvec4>& halfSpaces) {
     const auto rate = static_cast<btScalar>((1.0 - static_cast<double>(body.m_cfg.kDP)) / kStep);
     for (int i = 0; i < body.m_nodes.size(); ++i) {
         btSoftBody::Node& node = body.m_nodes[i];
+        if (!(node.m_im > 0.0f)) // it is held
+            continue;
         const glm::dvec3 place = fromBullet(node.m_x);
         double highest = -INFINITY;
         glm::dvec3 normal(0.0);
@@ -294,7 +296,7 @@ void SoftSolver::layOn(const std::vector<glm::dvec4>& halfSpaces) {
                 if (highest >= gap)
                     break;
             }
-        if (!(node.m_im > 0.0f) || highest >= gap)
+        if (highest >= gap)
             continue;
         const double push = gap - highest;
         const glm::dvec3 way = place - fromBullet(node.m_q);

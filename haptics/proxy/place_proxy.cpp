@@ -41,9 +41,13 @@ bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& stat
     return true;
 }
 
-void letGo(DeviceState& state) noexcept {
+void beginTouch(DeviceState& state, bool mustLeave) noexcept {
     state.forgetTouch();
-    state.mustLeave = true;
+    state.mustLeave = mustLeave;
+}
+
+void letGo(DeviceState& state) noexcept {
+    beginTouch(state, true);
 }
 
 void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept {

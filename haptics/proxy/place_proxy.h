@@ -23,6 +23,9 @@ namespace touchstone {
 /// the model, clear of it (clear_of_model.h); the hand then counts as having left.
 [[nodiscard]] bool mayBegin(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
+/// Touch begins again where the hand is next sampled; `mustLeave`: once it is clear of the model.
+void beginTouch(DeviceState& state, bool mustLeave) noexcept;
+
 /// The hand begins again once it is clear of the model: what stood behind a surface that is gone, or one that
 /// has come to be around it, would push at full depth.
 void letGo(DeviceState& state) noexcept;

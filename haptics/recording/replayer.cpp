@@ -330,16 +330,20 @@ void Replayer::resume(const RecordedTick& tick) {
         known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
 }
 
-std::span<const DrivenPose> Replayer::moved() const {
+const WorldState* Replayer::rootWorld() const {
     const auto scene = loaded_.find(rootOf(scene_));
-    if (scene == loaded_.end() || scene->second == nullptr || scene->second->world.driven() == nullptr)
-        return {};
-    return scene->second->world.driven()->newest().poses();
+    return scene != loaded_.end() && scene->second != nullptr ? &scene->second->world : nullptr;
+}
+
+std::span<const DrivenPose> Replayer::moved() const {
+    const WorldState* const world = rootWorld();
+    return world != nullptr && world->driven() != nullptr ? world->driven()->newest().poses()
+                                                          : std::span<const DrivenPose>{};
 }
 
 const body::BodyWorld* Replayer::bodies() const {
-    const auto scene = loaded_.find(rootOf(scene_));
-    return scene != loaded_.end() && scene->second != nullptr ? scene->second->world.bodies().get() : nullptr;
+    const WorldState* const world = rootWorld();
+    return world != nullptr ? world->bodies().get() : nullptr;
 }
 
 /// The state before `tick`: the last whole one and the strokes since. False where that does not fit.

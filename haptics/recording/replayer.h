@@ -91,6 +91,8 @@ class Replayer {
     [[nodiscard]] std::span<const DrivenPose> moved() const;
 
   private:
+    /// Of the scene that is replayed; null before the first.
+    [[nodiscard]] const WorldState* rootWorld() const;
     struct Touched {
         ReplayScene scene;
         WorldState world;

@@ -2,6 +2,7 @@
 
 #include "haptics/body/hold_body.h"
 #include "haptics/force/tool_resistance.h"
+#include "haptics/proxy/place_proxy.h"
 #include "haptics/scene/haptic_scene.h"
 
 #include <algorithm>
@@ -17,11 +18,6 @@ bool holdsOn(const HapticSettings& settings, const DeviceSample& sample) {
 }
 
 } // namespace
-
-void beginTouch(DeviceState& state, bool mustLeave) {
-    state.forgetTouch();
-    state.mustLeave = mustLeave;
-}
 
 void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force, double share,
                  double stiffness, double most, ContactForces& parts, WorldState& world) {
@@ -58,7 +54,7 @@ bool hold(const HandTick& tick, const DeviceSample& sample, bool sampled, WorldS
     const bool can = world.bodies() != nullptr && body::canHold(*world.bodies(), state.grasp.object);
     if (!can || !holdsOn(tick.settings, sample)) {
         state.grasp = {};
-        beginTouch(state, true);
+        letGo(state);
         return false;
     }
     if (!sampled)

@@ -7,9 +7,6 @@
 
 namespace touchstone {
 
-/// Touch begins again where the hand is next sampled.
-[[gnu::noinline]] void beginTouch(DeviceState& state, bool mustLeave);
-
 /// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
 /// finite ends at the hand's safety stage.
 [[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,

@@ -1,5 +1,7 @@
 #include "haptics/world/deforming_objects.h"
 
+#include "haptics/world/deformation_of.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,10 +24,7 @@ std::unique_ptr<DeformingObjects> DeformingObjects::of(const ScenePtr& source, c
         return nullptr;
     const std::vector<bool> moved = movedNodes(*source, *animation);
     const bool any = std::ranges::any_of(haptic.objects, [&](const auto& object) {
-        if (object->instance < 0 || object->shape != nullptr || object->indices.empty())
-            return false;
-        const auto mesh = static_cast<size_t>(source->instances[static_cast<size_t>(object->instance)].mesh);
-        const auto& deformation = source->meshes[mesh].deformation;
+        const MeshDeformation* const deformation = deformationOf(*source, *object);
         return deformation != nullptr && deformation->drivenBy(*animation, moved);
     });
     return any ? std::unique_ptr<DeformingObjects>(new DeformingObjects(source, *animation, haptic))
@@ -39,12 +38,9 @@ DeformingObjects::DeformingObjects(ScenePtr source, const Animation& animation, 
         std::max<int64_t>(static_cast<int64_t>(std::ceil(animation.duration * kPublicationRate - 1e-9)), 1);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         const HapticObject& object = *haptic.objects[k];
-        if (object.instance < 0 || object.shape != nullptr || object.indices.empty() || object.cut)
-            continue;
-        const Instance& instance = source_->instances[static_cast<size_t>(object.instance)];
-        const auto& deformation = source_->meshes[static_cast<size_t>(instance.mesh)].deformation;
+        const MeshDeformation* const deformation = deformationOf(*source_, object);
         if (deformation != nullptr && deformation->drivenBy(animation, moved))
-            add(haptic, k, instance);
+            add(haptic, k, source_->instances[static_cast<size_t>(object.instance)]);
     }
     addSlots(kSlots);
     Slot& first = *slots_.front();

@@ -1,7 +1,7 @@
 #include "haptics/world/soft_objects.h"
 
 #include "engine/core/float_mode.h"
-#include "engine/scene/mesh_deformation.h"
+#include "haptics/world/deformation_of.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,11 +19,16 @@ constexpr uint32_t kLongAsleep = body::kSoftCalm + 6;
 constexpr auto kPause = std::chrono::microseconds(400);
 
 const SoftBody* softBodyOf(const Scene& scene, const HapticObject& object) {
-    if (object.instance < 0 || object.shape != nullptr || object.indices.empty() || object.cut)
-        return nullptr;
-    const auto mesh = static_cast<size_t>(scene.instances[static_cast<size_t>(object.instance)].mesh);
-    const auto& deformation = scene.meshes[mesh].deformation;
+    const MeshDeformation* const deformation = deformationOf(scene, object);
     return deformation != nullptr ? deformation->soft.get() : nullptr;
+}
+
+/// Without the spare ones.
+size_t verticesOf(const HapticScene& haptic, const std::vector<size_t>& objects) {
+    size_t vertices = 0;
+    for (const size_t k : objects)
+        vertices += haptic.objects[k]->vertices.size() - 1;
+    return vertices;
 }
 
 /// Bytes after bytes.
@@ -85,12 +90,8 @@ std::unique_ptr<SoftObjects> SoftObjects::of(const ScenePtr& source, const Hapti
 
 SoftObjects::SoftObjects(const ScenePtr& source, const HapticScene& haptic,
                          const std::vector<size_t>& objects)
-    : scene_(copyOf(haptic)), publication_([&] {
-          size_t vertices = 0;
-          for (const size_t k : objects)
-              vertices += haptic.objects[k]->vertices.size() - 1;
-          return vertices;
-      }()) {
+    : scene_(copyOf(haptic)), vertices_(verticesOf(haptic, objects)),
+      publication_(std::vector<glm::vec3>(vertices_)) {
     for (const size_t k : objects)
         add(*source, haptic, k);
     for (uint64_t state : {0, 1})
@@ -216,7 +217,7 @@ void SoftObjects::make(uint64_t state) noexcept {
 /// For the eye.
 void SoftObjects::show(uint64_t state) noexcept {
     size_t at = 0;
-    const std::span<glm::vec3> back = publication_.back();
+    std::vector<glm::vec3>& back = publication_.back();
     for (size_t b = 0; b < bodies_.size(); ++b) {
         const std::vector<glm::vec3>& vertices = part(state, b).vertices;
         std::ranges::copy(vertices, back.begin() + static_cast<std::ptrdiff_t>(at));
@@ -309,11 +310,8 @@ void SoftObjects::addTo(Hash64& hash) const noexcept {
 }
 
 size_t SoftObjects::stateSize() const noexcept {
-    size_t vertices = 0;
-    for (const Shown& soft : shown_)
-        vertices += soft.vertices;
     return sizeof(Clock) + 2 * sizeof(Input) + shown_.size() * kStates * sizeof(Calm) +
-           vertices * kStates * 3 * sizeof(glm::vec3);
+           vertices_ * kStates * 3 * sizeof(glm::vec3);
 }
 
 void SoftObjects::save(std::span<std::byte> bytes) const noexcept {

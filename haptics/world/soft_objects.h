@@ -3,6 +3,7 @@
 // their states, as it does where an animation deforms a mesh (world/deforming_objects.h).
 
 #include "engine/core/checksum.h"
+#include "engine/exchange/triple_buffer.h"
 #include "engine/math/object_motion.h"
 #include "engine/scene/scene.h"
 #include "haptics/body/soft_solver.h"
@@ -20,28 +21,9 @@
 
 namespace touchstone {
 
-/// Where the vertices of all soft bodies are, for the eye: written by whoever steps them, read by one thread.
-class SoftPublication {
-  public:
-    explicit SoftPublication(size_t vertices) {
-        for (auto& places : places_)
-            places.resize(vertices);
-    }
-    [[nodiscard]] std::span<glm::vec3> back() noexcept { return places_[writing_]; }
-    void publish() noexcept { writing_ = middle_.exchange(writing_ | kFresh, std::memory_order_acq_rel) & 3; }
-    /// The newest vertices, object frames, one soft object after the other. Valid until the next call.
-    [[nodiscard]] std::span<const glm::vec3> newest() noexcept {
-        if ((middle_.load(std::memory_order_relaxed) & kFresh) != 0)
-            reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & 3;
-        return places_[reading_];
-    }
-
-  private:
-    static constexpr uint8_t kFresh = 4;
-    std::array<std::vector<glm::vec3>, 3> places_;
-    std::atomic<uint8_t> middle_{1};
-    uint8_t writing_ = 0, reading_ = 2;
-};
+/// Where the vertices of all soft bodies are, for the eye: object frames, one soft object after the other.
+/// Written by whoever steps them, read by one thread.
+using SoftPublication = TripleBuffer<std::vector<glm::vec3>>;
 
 /// Construct off the servo (it allocates). One thread calls `advance`, `push` and `integrate`.
 ///
@@ -148,7 +130,8 @@ class SoftObjects {
     std::vector<Soft> bodies_;
     std::vector<Shown> shown_;
     std::array<std::vector<Part>, kRing> ring_;
-    SoftPublication publication_{0};
+    size_t vertices_ = 0; // of all soft bodies
+    SoftPublication publication_;
     Moment moment_, previous_;
     double pending_ = 0.0; // s, since the last `advance`
     Input gathered_;       // of this interval

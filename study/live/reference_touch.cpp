@@ -36,12 +36,6 @@ TickError errorOf(const HapticOutput& felt, const HapticOutput& exact) {
     return error;
 }
 
-bool hasSoftBodies(const Scene& scene) {
-    return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) {
-        return mesh.deformation != nullptr && mesh.deformation->soft != nullptr;
-    });
-}
-
 } // namespace
 
 HapticSettings referenceOf(const HapticSettings& settings) {

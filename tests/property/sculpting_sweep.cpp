@@ -5,6 +5,7 @@
 #include "haptics/shape/field/mesh_to_field.h"
 #include "haptics/shape/field/save/field_export.h"
 #include "haptics/shape/field/sculpt/sculptor.h"
+#include "tests/support/field_nodes.h"
 
 #include <gtest/gtest.h>
 
@@ -57,14 +58,6 @@ std::vector<Dab> randomStroke(std::mt19937& random) {
         dabs.push_back(dab);
     }
     return dabs;
-}
-
-std::vector<float> allNodes(const FieldGrid& grid) {
-    const glm::ivec3 size = grid.layout().cells + 1;
-    std::vector<float> nodes(static_cast<size_t>(size.x) * static_cast<size_t>(size.y) *
-                             static_cast<size_t>(size.z));
-    grid.copyNodes(glm::ivec3(0), size, nodes);
-    return nodes;
 }
 
 template <class Visit>

@@ -51,7 +51,7 @@ bool hasPersistentTexture(const Scene& scene) {
 /// Something that is felt as a field has a texture that its mesh lacks.
 bool hasFieldTexture(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const Material& material) {
-        return material.haptic.implicit && material.haptic.fieldTexture != FieldTexture{};
+        return material.haptic.implicit && !material.haptic.fieldTexture.empty();
     });
 }
 

@@ -6,16 +6,20 @@
 #include "haptics/program/load_program.h"
 #include "workbench/figures/program_figures.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 namespace touchstone {
 
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{10};
+/// A second compiler is started then at the latest.
+constexpr std::chrono::milliseconds kWithoutFiles{500};
 /// s without anything to compile, after which a second compiler gets ready. Its tenth of a second of a
 /// processor is not taken while the last text is on its way into touch and picture.
 constexpr double kQuiet = 0.5;
@@ -77,6 +81,7 @@ void ProgramWorker::begin(std::vector<Source> sources) {
         sources_.emplace_back().Source::operator=(std::move(source));
     if (!sources_.empty() && !thread_.joinable())
         thread_ = std::thread([this] { run(); });
+    wake_.notify_all();
 }
 
 void ProgramWorker::compile(size_t source, std::string text, double changed) {
@@ -132,7 +137,11 @@ void ProgramWorker::run() {
 /// Texts first: they are waited for, costs are not.
 std::optional<ProgramWorker::Job> ProgramWorker::next() {
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, kLookEvery, [this] { return stop_ || !wanted_.empty() || !unmeasured_.empty(); });
+    const bool watches =
+        std::ranges::any_of(sources_, [](const Known& known) { return !known.file.empty(); });
+    wake_.wait_for(lock, watches ? kLookEvery : kWithoutFiles, [this, generation = generation_] {
+        return stop_ || generation_ != generation || !wanted_.empty() || !unmeasured_.empty();
+    });
     Job job{.generation = generation_};
     if (stop_ || (wanted_.empty() && unmeasured_.empty()))
         return std::nullopt;
@@ -153,41 +162,45 @@ std::optional<ProgramWorker::Job> ProgramWorker::next() {
 }
 
 std::optional<ProgramWorker::Job> ProgramWorker::changedFile() {
-    std::vector<Known> sources;
+    struct Watched {
+        size_t source = 0;
+        std::filesystem::path file{};
+        decltype(Known::seen) seen{};
+    };
+    std::vector<Watched> watched;
     uint64_t generation = 0;
     {
         const std::lock_guard lock(mutex_);
-        sources = sources_;
+        for (size_t s = 0; s < sources_.size(); ++s)
+            if (!sources_[s].file.empty())
+                watched.push_back({s, sources_[s].file, sources_[s].seen});
         generation = generation_;
     }
-    for (size_t s = 0; s < sources.size() && !stop_; ++s) {
-        Known& watched = sources[s];
-        if (watched.file.empty())
-            continue;
+    for (const Watched& each : watched) {
+        if (stop_)
+            break;
         std::error_code problem, other;
-        const std::pair now(std::filesystem::last_write_time(watched.file, problem),
-                            std::filesystem::file_size(watched.file, other));
-        if (problem || other || now == watched.seen)
+        const std::pair now(std::filesystem::last_write_time(each.file, problem),
+                            std::filesystem::file_size(each.file, other));
+        if (problem || other || now == each.seen)
             continue;
-        std::optional<std::string> text = textIn(watched.file);
+        std::optional<std::string> text = textIn(each.file);
         if (!text)
             continue;
-        const bool changed = *text != watched.text;
-        {
-            const std::lock_guard lock(mutex_);
-            if (generation != generation_)
-                return std::nullopt;
-            sources_[s].seen = now;
-            sources_[s].text = *text;
-        }
-        if (changed)
-            return Job{.report = {.source = s,
-                                  .text = *std::move(text),
-                                  .fromFile = true,
-                                  .changed = secondsNow() - ageOf(now.first)},
-                       .name = watched.name,
-                       .file = watched.file,
-                       .generation = generation};
+        const std::lock_guard lock(mutex_);
+        if (generation != generation_)
+            break;
+        Known& known = sources_[each.source];
+        known.seen = now;
+        if (*text == std::exchange(known.text, *text))
+            continue;
+        return Job{.report = {.source = each.source,
+                              .text = *std::move(text),
+                              .fromFile = true,
+                              .changed = secondsNow() - ageOf(now.first)},
+                   .name = known.name,
+                   .file = each.file,
+                   .generation = generation};
     }
     return std::nullopt;
 }

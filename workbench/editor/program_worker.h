@@ -40,9 +40,10 @@ struct ProgramReport {
 class ProgramWorker {
   public:
     struct Source {
-        std::string name{};           ///< as messages show it
-        std::filesystem::path file{}; ///< looked at a hundred times a second; empty: it is in the model
-        std::string text{};           ///< as it was compiled last
+        std::string name{}; ///< as messages show it
+        std::filesystem::path
+            file{}; ///< looked at a hundred times a second; empty: it is in the model, and nobody looks
+        std::string text{}; ///< as it was compiled last
     };
 
     ProgramWorker() = default;

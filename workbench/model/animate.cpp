@@ -13,13 +13,20 @@
 
 namespace touchstone {
 
-void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
-    const Animation* animation = playedAnimation(scene);
-    if (!renderer.hasScene() || animation == nullptr) // still being uploaded
-        return;
+namespace {
+
+ScenePose poseOf(double time, const Scene& scene) {
     ScenePose pose(scene);
-    pose.evaluate(scene, animation, loopedTime(*animation, time));
-    renderer.setInstancePoses(pose.sceneFromMesh());
+    if (const Animation* animation = playedAnimation(scene))
+        pose.evaluate(scene, animation, loopedTime(*animation, time));
+    return pose;
+}
+
+/// The vertices that the played animation deforms.
+void deformVertices(const ScenePose& pose, const Scene& scene, SceneRenderer& renderer) {
+    const Animation* animation = playedAnimation(scene);
+    if (animation == nullptr)
+        return;
     const std::vector<bool> moved = movedNodes(scene, *animation);
     std::vector<bool> shown(scene.meshes.size(), false);
     for (const Instance& instance : scene.instances)
@@ -38,14 +45,22 @@ void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
     }
 }
 
+} // namespace
+
+void poseAt(double time, const Scene& scene, SceneRenderer& renderer) {
+    if (!renderer.hasScene() || playedAnimation(scene) == nullptr) // still being uploaded
+        return;
+    const ScenePose pose = poseOf(time, scene);
+    renderer.setInstancePoses(pose.sceneFromMesh());
+    deformVertices(pose, scene, renderer);
+}
+
 void poseMoved(double time, const Scene& scene, const HapticScene& haptic, std::span<const DrivenPose> moved,
                SceneRenderer& renderer) {
     if (!renderer.hasScene())
         return;
-    poseAt(time, scene, renderer); // the vertices that deform
-    ScenePose pose(scene);
-    if (const Animation* animation = playedAnimation(scene))
-        pose.evaluate(scene, animation, loopedTime(*animation, time));
+    const ScenePose pose = poseOf(time, scene);
+    deformVertices(pose, scene, renderer);
     std::vector<glm::dmat4> sceneFromMesh(pose.sceneFromMesh().begin(), pose.sceneFromMesh().end());
     for (const DrivenPose& object : moved) {
         const auto index = static_cast<size_t>(object.object);
@@ -71,7 +86,8 @@ void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, Sc
 void poseSoft(SoftObjects& soft, const Scene& scene, const HapticScene& haptic, SceneRenderer& renderer) {
     if (!renderer.hasScene())
         return;
-    std::span<const glm::vec3> places = soft.publication().newest();
+    (void)soft.publication().update();
+    std::span<const glm::vec3> places = soft.publication().value();
     DrawnVertices drawn;
     for (const SoftObjects::Shown& shown : soft.shown()) {
         const HapticObject& object = *haptic.objects[shown.object];
@@ -81,14 +97,14 @@ void poseSoft(SoftObjects& soft, const Scene& scene, const HapticScene& haptic, 
         drawn = {mesh.positions, std::vector<glm::vec3>(mesh.normals.size(), glm::vec3(0.0f)), mesh.tangents};
         // Triangles have their corners in either order: normals face as those of the mesh at rest do.
         std::vector<glm::vec3> sums(shown.vertices, glm::vec3(0.0f));
-        const auto placeOf = [&](uint32_t vertex) {
-            return glm::vec3(glm::dvec3(meshFromObject * glm::dvec4(glm::dvec3(places[vertex]), 1.0)));
-        };
+        std::vector<glm::vec3> inMesh;
+        for (const glm::vec3& place : places.first(shown.vertices))
+            inMesh.emplace_back(glm::dvec3(meshFromObject * glm::dvec4(glm::dvec3(place), 1.0)));
         const bool mirrors = glm::determinant(object.objectFromMesh) < 0.0;
         for (size_t i = 0; i + 2 < object.indices.size(); i += 3) {
             std::array<glm::vec3, 3> at;
             for (size_t k = 0; k < 3; ++k) {
-                at[k] = placeOf(object.indices[i + k]);
+                at[k] = inMesh[object.indices[i + k]];
                 drawn.positions[object.sourceIndices[i + k]] = at[k];
             }
             const glm::vec3 twice = glm::cross(at[1] - at[0], at[2] - at[0]) * (mirrors ? -1.0f : 1.0f);

@@ -10,8 +10,13 @@
 
 namespace touchstone {
 
+namespace {
+
+constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255);
+
+} // namespace
+
 TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
-    constexpr ImU32 kGrey = IM_COL32(120, 126, 133, 255);
     if (input.timeline->looking() && !input.timeline->again().running())
         return input.tick->output.contacts > 0 ? TouchLamp{"Recorded: touching", kAmber}
                                                : TouchLamp{"Recorded: in the air", kGrey};
@@ -39,6 +44,15 @@ TouchLamp touchLamp(const PanelInput& input, const PanelState& state) {
 
 namespace {
 
+/// Before a line of text.
+void drawDot(ImU32 color) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight(), radius = 0.32f * line;
+    ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + radius, at.y + 0.5f * line), radius, color);
+    ImGui::Dummy(ImVec2(2.0f * radius, line));
+    ImGui::SameLine();
+}
+
 /// A line for each hand beside the first: its lamp, its name, what it feels and what its device gets.
 void drawOthers(const PanelInput& input, const PanelState& state, Widgets& widgets) {
     for (size_t i = 0; i < input.others.size(); ++i) {
@@ -49,21 +63,15 @@ void drawOthers(const PanelInput& input, const PanelState& state, Widgets& widge
         const bool off = latched || !state.settings.forceEnabled;
         const ImU32 color = latched             ? kRed
                             : off               ? kAmber
-                            : absent            ? IM_COL32(120, 126, 133, 255)
+                            : absent            ? kGrey
                             : tick.contacts > 0 ? kGreen
-                                                : IM_COL32(120, 126, 133, 255);
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float line = ImGui::GetTextLineHeight(), radius = 0.32f * line;
-        ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + radius, at.y + 0.5f * line), radius, color);
-        ImGui::Dummy(ImVec2(2.0f * radius, line));
-        ImGui::SameLine();
+                                                : kGrey;
+        drawDot(color);
         const std::string where = other.status.empty() ? other.name : other.name + ", " + other.status;
-        if (absent)
-            widgets.wrapped("Hand " + std::to_string(i + 2) + " (" + where + "): none");
-        else
-            widgets.wrapped("Hand " + std::to_string(i + 2) + " (" + where +
-                            "): " + quantity(glm::length(tick.force), "N") + ", " +
-                            quantity(glm::length(tick.command.force()), "N") + " sent");
+        const std::string felt = absent ? "none"
+                                        : quantity(glm::length(tick.force), "N") + ", " +
+                                              quantity(glm::length(tick.command.force()), "N") + " sent";
+        widgets.wrapped("Hand " + std::to_string(i + 2) + " (" + where + "): " + felt);
         widgets.mark(("hand" + std::to_string(i + 2)).c_str());
     }
 }
@@ -72,12 +80,7 @@ void drawOthers(const PanelInput& input, const PanelState& state, Widgets& widge
 
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const TouchLamp lamp = touchLamp(input, state);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float line = ImGui::GetTextLineHeight(), radius = 0.32f * line;
-    ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + radius, at.y + 0.5f * line), radius,
-                                                lamp.color);
-    ImGui::Dummy(ImVec2(2.0f * radius, line));
-    ImGui::SameLine();
+    drawDot(lamp.color);
     ImGui::TextUnformatted(lamp.text);
     widgets.mark("lamp");
 

@@ -67,9 +67,7 @@ std::vector<int> texturedFields(const HapticScene& felt, const Scene& drawn) {
             continue;
         const Instance& instance = drawn.instances[static_cast<size_t>(object.instance)];
         const Mesh& mesh = drawn.meshes[static_cast<size_t>(instance.mesh)];
-        const FieldTexture& texture = drawn.materials[static_cast<size_t>(mesh.material)].haptic.fieldTexture;
-        const bool lattice = texture.latticeAmplitude > 0.0f && texture.latticeWavelength > 0.0f;
-        if (texture.noiseAmplitude > 0.0f || lattice)
+        if (!drawn.materials[static_cast<size_t>(mesh.material)].haptic.fieldTexture.empty())
             found.push_back(static_cast<int>(k));
     }
     return found;

@@ -193,10 +193,10 @@ void SoftBodyReader::read(size_t n) {
         const std::vector<bool> moved = movedNodes(scene_, animation);
         if (moved[n])
             context_.fail(place_, "is at a node that an animation moves");
-        for (const Mesh& mesh : scene_.meshes)
-            if (mesh.deformation != nullptr && mesh.deformation->soft == nullptr)
-                context_.fail(place_, "is in a scene with skins or morph targets that an animation drives");
     }
+    for (const Mesh& mesh : scene_.meshes)
+        if (mesh.deformation != nullptr && mesh.deformation->soft == nullptr)
+            context_.fail(place_, "is in a scene with skins or morph targets that an animation drives");
     const std::vector<int> instances = instancesOf(static_cast<int>(n));
     if (instances.empty())
         context_.fail(place_, "is at a node without a mesh");

@@ -44,6 +44,17 @@ struct Pressing {
     }
 };
 
+/// False where it does not come to hold in a minute.
+template <class Holds>
+bool withinAMinute(const Holds& holds) {
+    for (int i = 0; i < 6000; ++i) {
+        if (holds())
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
 /// A session with that device, by the C interface.
 struct PressedSession {
     Pressing pressing;
@@ -58,25 +69,17 @@ struct PressedSession {
     /// Pumps until `done` holds; false after a minute.
     template <class Done>
     bool until(const Done& done) {
-        for (int i = 0; i < 6000; ++i) {
+        return withinAMinute([&] {
             ts::check(ts_session_pump(handle.get(), &state));
-            if (done())
-                return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
+            return done();
+        });
     }
 };
 
 /// Pumps until `done` holds; false after a minute.
 template <class Done>
 bool pumpUntil(ts::Session& session, const Done& done) {
-    for (int i = 0; i < 6000; ++i) {
-        if (done(session.pump()))
-            return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
+    return withinAMinute([&] { return done(session.pump()); });
 }
 
 TEST(LiveSession, GivesTheForceToAnOwnDeviceWithinItsLimits) {

@@ -115,6 +115,16 @@ struct DeformingReport {
     double work = 0.0;                          ///< J, of the command on the hand's motion
 };
 
+/// With a given proxy and coefficient of friction.
+inline HapticSettings touchedWith(double radius, double friction) {
+    HapticSettings settings;
+    settings.proxyRadius = radius;
+    settings.staticFriction = settings.dynamicFriction = friction;
+    if (friction > 0.0)
+        settings.forceShading = ShadingMode::Off; // the cone is about the true normal
+    return settings;
+}
+
 class DeformingBench {
   public:
     DeformingBench(Scene made, const HapticSettings& wanted)

@@ -9,15 +9,6 @@ namespace {
 
 const std::string kBreathing = std::string(TOUCHSTONE_ASSETS) + "/breathing.glb";
 
-HapticSettings with(double radius, double friction) {
-    HapticSettings settings;
-    settings.proxyRadius = radius;
-    settings.staticFriction = settings.dynamicFriction = friction;
-    if (friction > 0.0)
-        settings.forceShading = ShadingMode::Off; // the cone is about the true normal
-    return settings;
-}
-
 glm::dvec3 placeIn(const DeformingBench& bench, const glm::dvec3& scene) {
     return bench.haptic->workspaceFromScene.point(scene);
 }
@@ -26,7 +17,7 @@ glm::dvec3 placeIn(const DeformingBench& bench, const glm::dvec3& scene) {
 TEST(DeformingTouch, AStalkThatBendsPushesARestingHand) {
     for (const double radius : {0.0, 0.002})
         for (const double friction : {0.0, 0.5}) {
-            DeformingBench bench(loadScene(kBreathing), with(radius, friction));
+            DeformingBench bench(loadScene(kBreathing), touchedWith(radius, friction));
             const glm::dvec3 hip = placeIn(bench, {-0.068, 0.035, 0.003});
             for (int k = 0; k < 5000; ++k)
                 bench.tick(hip, 1e-3 * k);
@@ -40,7 +31,7 @@ TEST(DeformingTouch, AStalkThatBendsPushesARestingHand) {
 
 TEST(DeformingTouch, ABallThatBreathesCarriesAPressingHand) {
     for (const double radius : {0.0, 0.003}) {
-        DeformingBench bench(loadScene(kBreathing), with(radius, 0.4));
+        DeformingBench bench(loadScene(kBreathing), touchedWith(radius, 0.4));
         double least = INFINITY, most = 0.0;
         for (int k = 0; k < 5000; ++k) {
             const double time = 1e-3 * k;
@@ -61,7 +52,7 @@ TEST(DeformingTouch, AHandThatWandersOverEverything) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (const double radius : {0.0, 0.002}) {
-        DeformingBench bench(loadScene(kBreathing), with(radius, 0.3));
+        DeformingBench bench(loadScene(kBreathing), touchedWith(radius, 0.3));
         glm::dvec3 hip = placeIn(bench, {0.0, 0.06, 0.0}), to = hip;
         for (int k = 0; k < 12000; ++k) {
             if (k % 200 == 0)
@@ -79,7 +70,7 @@ TEST(DeformingTouch, AWalkingFigureFeelsAsItIs) {
     if (!folder)
         GTEST_SKIP() << kNoModels;
     for (const char* name : {"RiggedFigure.glb", "RiggedSimple.glb", "AnimatedMorphCube.glb"}) {
-        DeformingBench bench(loadScene(*folder / name), with(0.001, 0.4));
+        DeformingBench bench(loadScene(*folder / name), touchedWith(0.001, 0.4));
         bench.closed = false; // the figure's parts run through each other
         std::mt19937 random(3);
         std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -98,7 +89,7 @@ TEST(DeformingTouch, AWalkingFigureFeelsAsItIs) {
 TEST(DeformingTouch, TwoRunsAreTheSameToTheLastBit) {
     std::vector<uint64_t> hashes;
     for (int run = 0; run < 2; ++run) {
-        DeformingBench bench(loadScene(kBreathing), with(0.001, 0.4));
+        DeformingBench bench(loadScene(kBreathing), touchedWith(0.001, 0.4));
         Hash64 hash;
         for (int k = 0; k < 3000; ++k) {
             const HapticOutput& output = bench.hand.tick(
@@ -119,7 +110,7 @@ TEST(DeformingTouch, APublishersTicksAreReplayedToTheLastBit) {
     const ScenePtr source = loadScene(kBreathing);
     const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace),
                                            {.rays = false, .progress = {}});
-    const HapticSettings settings = with(0.001, 0.4);
+    const HapticSettings settings = touchedWith(0.001, 0.4);
     const DeviceSample sample = sampleAt(haptic->workspaceFromScene.point({-0.062, 0.03, 0.004}));
     struct Tick {
         bool held;
@@ -161,7 +152,8 @@ TEST(DeformingTouch, ASceneThatDeformsNothingHasNoCopyAndNoThread) {
 }
 
 TEST(DeformingTouch, PlaysAtTheSpeedAndTheTimeOfTheSettings) {
-    DeformingBench slow(loadScene(kBreathing), with(0.0, 0.0)), normal(loadScene(kBreathing), with(0.0, 0.0));
+    DeformingBench slow(loadScene(kBreathing), touchedWith(0.0, 0.0)),
+        normal(loadScene(kBreathing), touchedWith(0.0, 0.0));
     slow.settings.animationSpeed = 0.25;
     slow.settings.animationOffset = 0.5;
     slow.hand.tick(slow.settings, sampleAt({0, 0.2, 0}), 2.0, 1e-3);

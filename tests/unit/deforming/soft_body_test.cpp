@@ -19,15 +19,6 @@ const std::string kJelly = std::string(TOUCHSTONE_ASSETS) + "/jelly.glb";
 const std::string kCloth = std::string(TOUCHSTONE_ASSETS) + "/cloth.glb";
 constexpr double kTop = 0.040; // m, scene: of the jelly
 
-HapticSettings softSettings(double radius, double friction) {
-    HapticSettings settings;
-    settings.proxyRadius = radius;
-    settings.staticFriction = settings.dynamicFriction = friction;
-    if (friction > 0.0)
-        settings.forceShading = ShadingMode::Off; // the cone is about the true normal
-    return settings;
-}
-
 /// A bench whose time goes on from tick to tick.
 struct SoftBench : DeformingBench {
     SoftBench(const std::string& path, const HapticSettings& wanted, bool isClosed)
@@ -79,7 +70,7 @@ ScenePtr calmJelly() {
 }
 
 TEST(SoftBodies, AJellyIsPressedAlongAMonotoneCurveAndComesBack) {
-    SoftBench bench(calmJelly(), softSettings(0.001, 0.0), true);
+    SoftBench bench(calmJelly(), touchedWith(0.001, 0.0), true);
     const glm::dvec3 above{0.001, kTop + 0.010, 0.0015};
     bench.wait(2.0, above);
     const std::vector<glm::dvec3> rest = bench.vertices();
@@ -110,7 +101,7 @@ TEST(SoftBodies, AJellyIsPressedAlongAMonotoneCurveAndComesBack) {
 /// cycle of 1 to 4 mm where the hand's force, or its place, was that of another state than the one it met.
 TEST(SoftBodies, AHandAtRestFindsAJellyAtRest) {
     for (const double stiffness : {300.0, 600.0, 3000.0}) {
-        HapticSettings settings = softSettings(0.001, 0.0);
+        HapticSettings settings = touchedWith(0.001, 0.0);
         settings.stiffness = stiffness;
         SoftBench bench(calmJelly(), settings, true);
         double widest = 0.0;
@@ -135,7 +126,7 @@ TEST(SoftBodies, AHandAtRestFindsAJellyAtRest) {
 
 /// It costs nothing while nothing happens, and wakes at a touch, or with another gravity.
 TEST(SoftBodies, ABodyAtRestSleepsUntilItIsTouched) {
-    SoftBench bench(calmJelly(), softSettings(0.001, 0.0), true);
+    SoftBench bench(calmJelly(), touchedWith(0.001, 0.0), true);
     // Beside its pole, where all facets of a dent meet: docs/deforming.md, "What is missing".
     const glm::dvec3 away{0.003, kTop + 0.03, 0.002};
     bench.wait(0.3, away);
@@ -160,7 +151,7 @@ TEST(SoftBodies, ABodyAtRestSleepsUntilItIsTouched) {
 }
 
 TEST(SoftBodies, AJellyKeepsItsVolumeAndBreathes) {
-    SoftBench bench(kJelly, softSettings(0.001, 0.0), true);
+    SoftBench bench(kJelly, touchedWith(0.001, 0.0), true);
     const auto volume = [&] {
         const size_t k = bench.hand.world.soft()->shown()[0].object;
         const auto& indices = bench.haptic->objects[k]->indices;
@@ -188,7 +179,7 @@ TEST(SoftBodies, AHandWandersOverABreathingJelly) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (const double friction : {0.0, 0.4}) {
-        SoftBench bench(kJelly, softSettings(0.001, friction), true);
+        SoftBench bench(kJelly, touchedWith(0.001, friction), true);
         glm::dvec3 hip{0.0, kTop + 0.02, 0.0}, to = hip;
         for (int k = 0; k < 8000; ++k) {
             if (k % 150 == 0)
@@ -202,7 +193,7 @@ TEST(SoftBodies, AHandWandersOverABreathingJelly) {
 }
 
 TEST(SoftBodies, AClothLiesOverTheBallAndIsFelt) {
-    SoftBench bench(kCloth, softSettings(0.001, 0.3), false);
+    SoftBench bench(kCloth, touchedWith(0.001, 0.3), false);
     bench.wait(3.0, {0.0, 0.05, 0.0});
     const glm::dvec3 centre = bench.haptic->workspaceFromScene.point({0.0, -0.012, 0.0});
     const double scale = bench.haptic->workspaceFromScene.scale;
@@ -231,7 +222,7 @@ TEST(SoftBodies, AClothLiesOverTheBallAndIsFelt) {
 /// A hand that pushes, with the bodies' state in the middle given to another world, which then does the same.
 TEST(SoftBodies, StatesGoOnToTheLastBit) {
     for (const std::string& path : {kJelly, kCloth}) {
-        SoftBench bench(path, softSettings(0.001, 0.3), false);
+        SoftBench bench(path, touchedWith(0.001, 0.3), false);
         const auto hipAt = [](size_t k) {
             return glm::dvec3{0.004 * std::sin(0.01 * static_cast<double>(k)),
                               0.03 - 1e-5 * static_cast<double>(k % 1700), 0.002};
@@ -244,7 +235,7 @@ TEST(SoftBodies, StatesGoOnToTheLastBit) {
             bench.feel(hipAt(k));
             hashes.push_back(bench.hand.world.poseHash());
         }
-        SoftBench again(path, softSettings(0.001, 0.3), false);
+        SoftBench again(path, touchedWith(0.001, 0.3), false);
         again.wait(0.3, {0.0, 0.02, 0.0}); // another past
         again.hand.state = bench.hand.state;
         ASSERT_TRUE(again.hand.world.restoreBodies(kept));
@@ -257,7 +248,7 @@ TEST(SoftBodies, StatesGoOnToTheLastBit) {
 }
 
 TEST(SoftBodies, ADamagedStateIsRefusedAndChangesNothing) {
-    const HapticSettings settings = softSettings(0.001, 0.3);
+    const HapticSettings settings = touchedWith(0.001, 0.3);
     const auto press = [](SoftBench& bench) {
         for (int k = 0; k < 600; ++k)
             bench.feel({0.001, kTop + 0.01 - 2.5e-5 * k, 0.0015});
@@ -301,7 +292,7 @@ TEST(SoftBodies, AThreadsTicksAreReplayedToTheLastBit) {
     const ScenePtr source = loadScene(kJelly);
     const auto haptic = compileHapticScene(*source, workspaceFromScene(*source, Fit::Workspace),
                                            {.rays = false, .progress = {}});
-    HapticSettings settings = softSettings(0.001, 0.3);
+    HapticSettings settings = touchedWith(0.001, 0.3);
     settings.forceShading = HapticSettings{}.forceShading;
     const auto sampleOf = [&](size_t k) { // from above, so that the hand is not in the jelly when it begins
         const double t = 1e-3 * static_cast<double>(k);
@@ -524,7 +515,7 @@ TEST(SoftBodies, TheHardestNumbersKeepTheLimits) {
               {"damping", 0.0}}}) {
         GltfMaker maker = sheetOf(12, false);
         maker.json["nodes"][0]["extensions"]["TOUCHSTONE_soft_body"] = hard;
-        SoftBench bench(loadSceneFromMemory(maker.glb(), {}), softSettings(0.001, 0.3), false);
+        SoftBench bench(loadSceneFromMemory(maker.glb(), {}), touchedWith(0.001, 0.3), false);
         ASSERT_NE(bench.hand.world.soft(), nullptr);
         std::mt19937 random(2);
         std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -20,9 +20,11 @@ inline FieldLayout cubeOf(int cells) {
     return {.origin = glm::dvec3(-0.6), .voxel = 1.2 / cells, .cells = glm::ivec3(cells)};
 }
 
+inline std::shared_ptr<const FieldGrid> gridOf(const Distance& distance, int cells) {
+    return std::make_shared<FieldGrid>(gridOfDistance(cubeOf(cells), 0.2, 0.1, distance));
+}
 inline std::shared_ptr<const FieldShape> fieldOf(const Distance& distance, int cells) {
-    return std::make_shared<FieldShape>(
-        std::make_shared<FieldGrid>(gridOfDistance(cubeOf(cells), 0.2, 0.1, distance)));
+    return std::make_shared<FieldShape>(gridOf(distance, cells));
 }
 
 inline double ball(const glm::dvec3& p) {
@@ -34,6 +36,9 @@ inline double torus(const glm::dvec3& p) {
 inline double box(const glm::dvec3& p, const glm::dvec3& half) {
     const glm::dvec3 q = glm::abs(p) - half;
     return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0);
+}
+inline double block(const glm::dvec3& p) {
+    return box(p, glm::dvec3(0.4));
 }
 
 /// Alone in a scene: the corner's floor lies far below.

@@ -24,7 +24,7 @@ constexpr double kVoxel = 1.2 / kCells;
 const glm::vec3 kRed(0.9f, 0.1f, 0.05f), kBlue(0.0f, 0.2f, 1.0f), kWhite(1.0f);
 
 std::shared_ptr<const FieldGrid> ballGrid() {
-    return std::make_shared<FieldGrid>(gridOfDistance(cubeOf(kCells), 0.2, 0.1, ball));
+    return gridOf(ball, kCells);
 }
 
 Dab paintAt(const glm::dvec3& centre, double radius, const glm::vec3& color) {

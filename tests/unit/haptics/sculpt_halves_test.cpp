@@ -1,6 +1,7 @@
 // Dabs in two halves: their shape, and the distances around it.
 
 #include "haptics/shape/field/sculpt/sculptor.h"
+#include "tests/support/field_nodes.h"
 #include "tests/unit/haptics/field_bench.h"
 
 #include <gtest/gtest.h>
@@ -15,27 +16,11 @@
 namespace touchstone::test {
 namespace {
 
-std::shared_ptr<const FieldGrid> clayOf(const Distance& distance, int cells) {
-    return std::make_shared<FieldGrid>(gridOfDistance(cubeOf(cells), 0.2, 0.1, distance));
-}
-
-double cube(const glm::dvec3& p) {
-    return box(p, glm::dvec3(0.4));
-}
-
-std::vector<float> nodesOf(const FieldGrid& grid) {
-    const glm::ivec3 size = grid.layout().cells + 1;
-    std::vector<float> nodes(static_cast<size_t>(size.x) * static_cast<size_t>(size.y) *
-                             static_cast<size_t>(size.z));
-    grid.copyNodes(glm::ivec3(0), size, nodes);
-    return nodes;
-}
-
 /// A ball that is taken out or joined, in two halves: the second gives the bytes of the whole dab; after the
 /// first the surface and the exact side are final, and no distance on the other side is too long.
 TEST(SculptHalves, AShapeAndItsRestorationAreTheDab) {
     for (const SculptTool tool : {SculptTool::Carve, SculptTool::Add}) {
-        const auto base = clayOf(cube, 96);
+        const auto base = gridOf(block, 96);
         const double voxel = base->layout().voxel;
         const Dab dab{.tool = tool, .centre = {0.39, 0.05, -0.1}, .radius = 0.11};
         Sculptor whole(base), halves(base);
@@ -44,7 +29,7 @@ TEST(SculptHalves, AShapeAndItsRestorationAreTheDab) {
         const DabReport first = halves.shape(dab);
         EXPECT_TRUE(halves.owesDistances());
         EXPECT_NEAR(first.removed, once.removed, 0.01 * std::abs(once.removed));
-        const std::vector<float> done = nodesOf(*whole.grid()), shaped = nodesOf(*halves.grid());
+        const std::vector<float> done = allNodes(*whole.grid()), shaped = allNodes(*halves.grid());
         size_t bounds = 0;
         for (size_t i = 0; i < done.size(); ++i) {
             const bool exact = (done[i] < 0.0f) == (tool == SculptTool::Carve);
@@ -61,7 +46,7 @@ TEST(SculptHalves, AShapeAndItsRestorationAreTheDab) {
         halves.restore();
         EXPECT_FALSE(halves.owesDistances());
         EXPECT_EQ(halves.grid()->hash(), whole.grid()->hash());
-        EXPECT_EQ(nodesOf(*halves.grid()), done);
+        EXPECT_EQ(allNodes(*halves.grid()), done);
         EXPECT_EQ(halves.restore().bricks, 0u);
         // Both halves are one step.
         EXPECT_TRUE(halves.undo());
@@ -73,7 +58,7 @@ TEST(SculptHalves, AShapeAndItsRestorationAreTheDab) {
 /// dabs, whose restorations build on each other (0.28 and 0.37 voxels at the worst nodes, by samples of the
 /// surface).
 TEST(SculptHalves, ShapesNearEachOtherAreRestoredTogether) {
-    const auto base = clayOf(cube, 96);
+    const auto base = gridOf(block, 96);
     const double voxel = base->layout().voxel, radius = 0.08;
     std::vector<Dab> dabs;
     for (int i = 0; i < 3; ++i)
@@ -89,7 +74,7 @@ TEST(SculptHalves, ShapesNearEachOtherAreRestoredTogether) {
     EXPECT_FALSE(together.joins({.tool = SculptTool::Smooth, .centre = dabs[1].centre, .radius = radius}));
     EXPECT_FALSE(together.joins({.centre = {-0.4, 0.0, 0.0}, .radius = radius})) << "too far";
     together.restore();
-    const std::vector<float> a = nodesOf(*together.grid()), b = nodesOf(*apart.grid());
+    const std::vector<float> a = allNodes(*together.grid()), b = allNodes(*apart.grid());
     double worst = 0.0, inside = 0.0;
     size_t i = 0;
     for (int z = 0; z <= 96; ++z)
@@ -99,7 +84,7 @@ TEST(SculptHalves, ShapesNearEachOtherAreRestoredTogether) {
                 if (a[i] >= 0.0f)
                     continue;
                 const glm::dvec3 p = base->layout().origin + voxel * glm::dvec3(x, y, z);
-                double truth = cube(p);
+                double truth = block(p);
                 for (const Dab& dab : dabs)
                     truth = std::max(truth, radius - glm::distance(p, dab.centre));
                 inside = std::max(
@@ -112,8 +97,8 @@ TEST(SculptHalves, ShapesNearEachOtherAreRestoredTogether) {
 
 /// Whatever comes between the halves, the field repeats to the last bit and goes back to the bytes.
 TEST(SculptHalves, ShapesMayBeLeftToAnyOtherChange) {
-    const auto base = clayOf(ball, 64);
-    const std::vector<float> original = nodesOf(*base);
+    const auto base = gridOf(ball, 64);
+    const std::vector<float> original = allNodes(*base);
     const auto sculpt = [&](Sculptor& sculptor) {
         std::mt19937 random(3);
         for (int i = 0; i < 120; ++i) {
@@ -159,7 +144,7 @@ TEST(SculptHalves, ShapesMayBeLeftToAnyOtherChange) {
     EXPECT_LT(one.grid()->lipschitz(), 2.5);
     while (one.undo()) {
     }
-    EXPECT_EQ(nodesOf(*one.grid()), original);
+    EXPECT_EQ(allNodes(*one.grid()), original);
 }
 
 } // namespace

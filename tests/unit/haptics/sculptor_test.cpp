@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "haptics/shape/field/sculpt/sculptor.h"
+#include "tests/support/field_nodes.h"
 #include "tests/unit/haptics/field_bench.h"
 
 #include <gtest/gtest.h>
@@ -15,22 +16,6 @@
 
 namespace touchstone::test {
 namespace {
-
-std::shared_ptr<const FieldGrid> gridOf(const Distance& distance, int cells) {
-    return std::make_shared<FieldGrid>(gridOfDistance(cubeOf(cells), 0.2, 0.1, distance));
-}
-
-double block(const glm::dvec3& p) {
-    return box(p, glm::dvec3(0.4));
-}
-
-std::vector<float> allNodes(const FieldGrid& grid) {
-    const glm::ivec3 size = grid.layout().cells + 1;
-    std::vector<float> nodes(static_cast<size_t>(size.x) * static_cast<size_t>(size.y) *
-                             static_cast<size_t>(size.z));
-    grid.copyNodes(glm::ivec3(0), size, nodes);
-    return nodes;
-}
 
 struct Worst {
     double distance = 0.0; ///< voxels, |f - truth| at nodes
