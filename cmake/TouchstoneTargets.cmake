@@ -54,6 +54,17 @@ endfunction()
 
 touchstone_headers(common_headers common.h glm::glm)
 
+# touchstone_independent(TARGET...): code that may lie in libtouchstone although it refers to data of other shared libraries (streams, OpenVDB).
+# No library replaces a function of ours, so that they may be inlined as without -fPIC.
+function(touchstone_independent)
+    set_target_properties(${ARGN} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    foreach(target ${ARGN})
+        target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    endforeach()
+endfunction()
+touchstone_headers(independent_headers common.h glm::glm)
+touchstone_independent(touchstone_independent_headers)
+
 # touchstone_rooms(TARGET SOURCES...): in a unity build the files of a room are compiled together, twelve at most, so that
 # a new file concerns the names of its own room alone.
 function(touchstone_rooms target)
