@@ -150,6 +150,11 @@ void MovingObstacles::startStep(double from, double to) noexcept {
 }
 
 /// The place nearest to `target` that satisfies all hit triangles; false where there is none.
+///
+/// A full list is cut down to the planes that hold the place (three at most). They alone lead to the same
+/// place, and each plane that a later round adds takes it farther from the target, so that no set comes
+/// twice; what was left out and is in the way again is found again. A vertex of 32 facets, each in the way of
+/// a proxy that presses it, was a jam where the list ended instead.
 bool MovingObstacles::nearestPlace(std::span<const MovingObstacle> copies, const glm::dvec3& target,
                                    double unit, glm::dvec3& place) noexcept {
     for (size_t i = 0; i < struckCount_; ++i) {
@@ -170,7 +175,17 @@ bool MovingObstacles::nearestPlace(std::span<const MovingObstacle> copies, const
             anchorPushes_ |=
                 copies[hit_[index(goal.active[static_cast<size_t>(i)])].copy].object == state_.reference;
     }
+    if (struckCount_ == kMaxHit)
+        keepOnly(goal);
     return true;
+}
+
+void MovingObstacles::keepOnly(const SubGoal& goal) noexcept {
+    std::array<Hit, 3> held;
+    struckCount_ = static_cast<size_t>(goal.count);
+    for (size_t i = 0; i < struckCount_; ++i)
+        held[i] = hit_[index(goal.active[i])];
+    std::copy_n(held.begin(), struckCount_, hit_.begin());
 }
 
 /// Brings the copies together at the end of a step. False: no such place was found.
@@ -189,7 +204,7 @@ bool MovingObstacles::solve(const glm::dvec3& target) noexcept {
             place_ = place;
             return true;
         }
-        if ((struckCount_ == known && !revised_) || struckCount_ == kMaxHit)
+        if (struckCount_ == known && !revised_)
             return false;
     }
     return false;

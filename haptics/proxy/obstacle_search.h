@@ -92,6 +92,7 @@ class MovingObstacles {
     void note(size_t copy, const MovingObstacle& object) noexcept;
     bool nearestPlace(std::span<const MovingObstacle> copies, const glm::dvec3& target, double unit,
                       glm::dvec3& place) noexcept;
+    void keepOnly(const SubGoal& goal) noexcept;
     void lose() noexcept;
     void finish() noexcept;
 
