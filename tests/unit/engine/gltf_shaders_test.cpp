@@ -147,6 +147,46 @@ TEST(GltfShaders, ABrokenSourceCostsAWarningWithItsLine) {
     flaw({{"bufferView", "first"}}, "");
 }
 
+/// `text` as a file beside the model and inside of it: the model opens, its surface is plain, and the one
+/// warning has the source's name, the line and a remedy.
+void expectTold(const std::string& text, const std::string& place, const std::string& problem,
+                const std::string& remedy) {
+    const Folder folder;
+    folder.write("p.glsl", text);
+    for (const json& shader :
+         {json{{"source", "p.glsl"}}, json{{"source", dataUri(text)}, {"name", "p.glsl"}}}) {
+        const ScenePtr scene = loadSceneFromMemory(withShader(shader).glb(), folder.path(), {});
+        EXPECT_EQ(scene->triangleCount(), 2u) << "it opens";
+        EXPECT_FALSE(programOf(scene)) << text;
+        EXPECT_TRUE(scene->materials[0].haptic.unavailable.contains("shader"));
+        EXPECT_EQ(scene->warnings.size(), 1u) << warningsOf(*scene);
+        EXPECT_TRUE(warns(*scene, "materials[0]", "p.glsl: " + place + ": ")) << warningsOf(*scene);
+        for (const std::string& part : {problem, remedy, std::string("the surface is plain")})
+            EXPECT_TRUE(warns(*scene, ".shader", part)) << part << ": " << warningsOf(*scene);
+    }
+}
+
+TEST(GltfShaders, AnInputThatDoesNotExistIsToldWithFileLineAndRemedy) {
+    const std::string begin = "// one\nvoid touch(const in Touch before, inout Surface after) {\n";
+    const std::string remedy = "see docs/programs.md for what a program gets";
+    expectTold(begin + "    after.force *= before.temperature;\n}\n", "line 3", "temperature", remedy);
+    expectTold(begin + "    after.warmth = 1.0;\n}\n", "line 3", "warmth", remedy);
+    expectTold(begin + "\n    after.force *= touchstone_temperature;\n}\n", "line 4",
+               "touchstone_temperature", remedy);
+    expectTold(begin + "    after.force *= gl_FragCoord.x;\n}\n", "line 3", "gl_FragCoord", remedy);
+    expectTold(begin + "    after.force *= temperatureAt(before.position);\n}\n", "line 3", "temperatureAt",
+               remedy);
+}
+
+TEST(GltfShaders, AnIncludeOfAnythingIsToldWithFileLineAndRemedy) {
+    const std::string rest = "void touch(const in Touch before, inout Surface after) {}\n";
+    for (const char* name : {"\"/etc/passwd\"", "\"/dev/zero\"", "\"p.glsl\"", "\"library.glsl\"", "<math.h>",
+                             "\"../../p.glsl\"", "p.glsl", ""})
+        for (const char* extension : {"", "#extension GL_GOOGLE_include_directive : require"})
+            expectTold(std::string(extension) + "\n#include " + name + "\n" + rest, "line 2", "#include",
+                       "leave it out: the interface and the library are there by themselves");
+}
+
 TEST(GltfShaders, ASourceOfTenMegabytesIsRefusedByItsSize) {
     const Folder folder;
     folder.write("large.glsl", std::string(10u << 20, ' '));
