@@ -80,7 +80,8 @@ class TexelMapBuilder {
     struct Sum {
         glm::dvec3 place{0.0}; ///< times area
         double area = 0.0;
-        glm::vec3 normal{0.0f};
+        glm::dvec3 normal{
+            0.0}; ///< times area; doubles, since floats of a sliver's area have no direction left
         uint32_t texel = 0, next = kNone;
     };
 
@@ -111,7 +112,7 @@ class TexelMapBuilder {
         const double inTexture = 0.5 * std::abs(a.x * b.y - a.y * b.x);
         if (!(area > 0.0) || !std::isfinite(inTexture))
             return;
-        normal_ = glm::vec3(across / (2.0 * area));
+        normal_ = across / (2.0 * area);
         if (!(inTexture > 1e-9)) { // a line or a point of the texture: all of it at the centre
             const Corner centre{(c[0].at + c[1].at + c[2].at) / 3.0,
                                 (c[0].place + c[1].place + c[2].place) / 3.0};
@@ -174,7 +175,7 @@ class TexelMapBuilder {
         uint32_t* link = &first_[texel];
         while (*link != kNone) {
             Sum& sum = sums_[*link];
-            if (glm::dot(sum.normal, normal_) > 0.0f && glm::distance(sum.place / sum.area, place) < near_) {
+            if (glm::dot(sum.normal, normal_) > 0.0 && glm::distance(sum.place / sum.area, place) < near_) {
                 addTo(sum, place, area);
                 return;
             }
@@ -187,7 +188,7 @@ class TexelMapBuilder {
     }
     void addTo(Sum& sum, const glm::dvec3& place, double area) {
         sum.place += area * place;
-        sum.normal += static_cast<float>(area) * normal_;
+        sum.normal += area * normal_;
         sum.area += area;
     }
 
@@ -222,12 +223,20 @@ class TexelMapBuilder {
             map->x_.push_back(static_cast<float>(sum.place.x));
             map->y_.push_back(static_cast<float>(sum.place.y));
             map->z_.push_back(static_cast<float>(sum.place.z));
-            const glm::vec3 n = 127.0f * glm::normalize(sum.normal);
-            map->normal_.push_back(
-                {static_cast<int8_t>(n.x), static_cast<int8_t>(n.y), static_cast<int8_t>(n.z)});
+            map->normal_.push_back(bytesOf(sum.normal / sum.area));
             map->texel_.push_back(sum.texel);
         }
         return map;
+    }
+
+    /// `mean` is at least 1 / sqrt(samples) long, since each that was added looks to its side.
+    static std::array<int8_t, 3> bytesOf(const glm::dvec3& mean) {
+        std::array<int8_t, 3> bytes{};
+        const double length = glm::length(mean);
+        for (int axis = 0; length > 0.0 && axis < 3; ++axis)
+            bytes[static_cast<size_t>(axis)] =
+                static_cast<int8_t>(std::lround(127.0 * std::clamp(mean[axis] / length, -1.0, 1.0)));
+        return bytes;
     }
 
     /// Halves the samples along the longer side of their box, down to leaves.
@@ -259,7 +268,7 @@ class TexelMapBuilder {
     std::vector<uint32_t> first_; // by texel: its first sum
     std::vector<Sum> sums_;
     // Of the triangle that is added:
-    glm::vec3 normal_{0.0f};
+    glm::dvec3 normal_{0.0};
     double density_ = 0.0, near_ = 0.0;
 };
 

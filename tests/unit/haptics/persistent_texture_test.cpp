@@ -151,6 +151,42 @@ TEST(TexelMap, WithoutCoordinatesOrWhereTheyRepeatWithoutEndThereIsNone) {
     EXPECT_EQ(TouchBench(repeated).scene->texels.at(0), nullptr);
 }
 
+/// The square of its area, 2e-22 of the object's size, is no float: a direction that was summed up by such
+/// was infinite.
+TEST(TexelMap, ASliverLooksToItsOwnSide) {
+    Scene source = planeOf(kPlaque, sized(8, 8));
+    Mesh& mesh = source.meshes[0];
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const glm::vec2 at : {glm::vec2(-0.02f, 0.0f), glm::vec2(0.02f, 0.0f), glm::vec2(0.0f, 1e-22f)}) {
+        mesh.positions.emplace_back(at, 0.02f);
+        mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+        mesh.uv0.push_back({25.0f * at.x, at.y > 0.0f ? 1.0f : 0.0f});
+        if (!mesh.tangents.empty())
+            mesh.tangents.emplace_back(1.0f, 0.0f, 0.0f, 1.0f);
+    }
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+    const TouchBench bench(source);
+    const HapticObject& object = *bench.scene->objects[0];
+    std::optional<Triangle> sliver;
+    for (uint32_t t = 0; t < object.triangleCount(); ++t)
+        if (const Triangle triangle = triangleOf(object, t); triangle.a.z > 0.01)
+            sliver = triangle;
+    ASSERT_TRUE(sliver);
+    const double area =
+        0.5 * glm::length(glm::cross(sliver->b - sliver->a, sliver->c - sliver->a)); // object units^2
+    ASSERT_GT(area, 0.0);
+    ASSERT_LT(area, 1e-20);
+    ASSERT_NE(bench.scene->texels.at(0), nullptr);
+    const auto reached = std::make_unique<TexelMap::Reached>();
+    const auto reach = [&](const glm::dvec3& normal) {
+        bench.scene->texels[0]->reach((sliver->a + sliver->b) * 0.5, normal, 0.1, TexelMap::kMaxReached,
+                                      *reached);
+        return reached->count;
+    };
+    EXPECT_GT(reach({0.0, 0.0, 1.0}), 0u);
+    EXPECT_EQ(reach({0.0, 0.0, -1.0}), 0u);
+}
+
 TEST(TexelMap, AProgramThatNamesNoTextureHasNone) {
     const TouchBench bench(planeOf("after.staticFriction = 0.3;", sized(16, 16)));
     EXPECT_TRUE(bench.scene->texels.empty());
