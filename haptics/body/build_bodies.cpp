@@ -35,6 +35,7 @@ class BodyBuilder {
     }
     void findNodes();
     void readColliders();
+    [[nodiscard]] VolumeMoments momentsOfBody(size_t b) const;
     void readBody(size_t b);
     void readObjects();
     void placeColliders();
@@ -120,29 +121,36 @@ void BodyBuilder::readColliders() {
     }
 }
 
+/// Of its colliders; without any, of what is felt of it.
+VolumeMoments BodyBuilder::momentsOfBody(size_t b) const {
+    VolumeMoments moments;
+    for (size_t i = 0; i < forms_.size(); ++i)
+        if (forms_[i].body == static_cast<int>(b))
+            moments += momentsOf(forms_[i], triangles_[i]).in(forms_[i].bodyFromCollider);
+    if (moments.volume > 0.0)
+        return moments;
+    for (const auto& object : haptic_.objects) {
+        if (object->instance < 0 || object->empty() || object->shape != nullptr)
+            continue;
+        const Instance& instance = scene_.instances[static_cast<size_t>(object->instance)];
+        if (instance.node < 0 || bodyOfNode_[static_cast<size_t>(instance.node)] != static_cast<int>(b))
+            continue;
+        ColliderForm form;
+        form.shape = ColliderShape::Hull;
+        const Similarity& at = object->workspaceFromObject;
+        for (size_t i = 0; i + 1 < object->vertices.size(); ++i)
+            form.points.emplace_back(at.scale * glm::dvec3(object->vertices[i]));
+        moments += momentsOf(form, object->indices).in({at.rotation, at.translation});
+    }
+    return moments;
+}
+
 /// Mass, centre and principal axes.
 void BodyBuilder::readBody(size_t b) {
     constexpr double kWater = 1000.0; // kg/m^3
     const Body& stated = physics_.bodies[b];
     const Similarity node = poseOfNode(stated.node);
-    VolumeMoments moments;
-    for (size_t i = 0; i < forms_.size(); ++i)
-        if (forms_[i].body == static_cast<int>(b))
-            moments += momentsOf(forms_[i], triangles_[i]).in(forms_[i].bodyFromCollider);
-    if (!(moments.volume > 0.0)) // without colliders: of what is felt of it
-        for (const auto& object : haptic_.objects) {
-            if (object->instance < 0 || object->empty() || object->shape != nullptr)
-                continue;
-            const Instance& instance = scene_.instances[static_cast<size_t>(object->instance)];
-            if (instance.node < 0 || bodyOfNode_[static_cast<size_t>(instance.node)] != static_cast<int>(b))
-                continue;
-            ColliderForm form;
-            form.shape = ColliderShape::Hull;
-            const Similarity& at = object->workspaceFromObject;
-            for (size_t i = 0; i + 1 < object->vertices.size(); ++i)
-                form.points.emplace_back(at.scale * glm::dvec3(object->vertices[i]));
-            moments += momentsOf(form, object->indices).in({at.rotation, at.translation});
-        }
+    VolumeMoments moments = momentsOfBody(b);
     BodyMass mass;
     BodyState state;
     mass.gravityFactor = stated.gravityFactor;

@@ -120,6 +120,13 @@ class Replayer {
     void resume(const RecordedTick& tick);
     [[nodiscard]] bool gather(const RecordedTick& tick);
     void step(const RecordedTick& tick);
+    struct FeltTick {
+        double animated = 0.0; // time of the objects' motion
+        int64_t stepNs = 0;
+        uint32_t poses = 0; // WorldState::poseHash
+        bool texturesEqual = true;
+    };
+    [[nodiscard]] FeltTick feel(const RecordedTick& tick, const HapticSettings& settings, Touched* touched);
     [[nodiscard]] bool sameLocation(uint32_t hand, const RecordedTick& tick, const HapticSettings& settings);
     [[nodiscard]] bool compare(uint32_t hand, const RecordedTick& tick);
     void differs(const Difference& difference);

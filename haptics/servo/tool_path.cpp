@@ -24,6 +24,20 @@ bool isStamp(SculptTool tool) noexcept {
     return tool == SculptTool::Stamp || tool == SculptTool::Imprint;
 }
 
+/// A dab of the tool at a place in the object's frame.
+SculptEntry entryOf(const LiveTool& tool, int object, uint64_t tick, const glm::dvec3& centre,
+                    double radius) {
+    return {.tool = tool.tool,
+            .object = object,
+            .stamp = tool.stamp,
+            .tick = tick,
+            .centre = centre,
+            .radius = radius,
+            .strength = tool.tool == SculptTool::Add ? 1.0 : tool.strength,
+            .falloff = tool.falloff,
+            .color = tool.color};
+}
+
 } // namespace
 
 /// Chooses the object of a stroke. False where there is none yet.
@@ -58,15 +72,7 @@ size_t ToolPath::advance(const LiveTool& tool, bool pressed, const HapticScene& 
             return 0;
         centre -= (radius - std::min(kGrowth * tool.strength * voxel, radius)) * outwards / steep;
     }
-    SculptEntry entry{.tool = tool.tool,
-                      .object = object_,
-                      .stamp = tool.stamp,
-                      .tick = input.tick,
-                      .centre = centre,
-                      .radius = radius,
-                      .strength = tool.tool == SculptTool::Add ? 1.0 : tool.strength,
-                      .falloff = tool.falloff,
-                      .color = tool.color};
+    SculptEntry entry = entryOf(tool, object_, input.tick, centre, radius);
     size_t count = 0;
     rested_ += input.dt;
     const auto add = [&] {

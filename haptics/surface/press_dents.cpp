@@ -62,6 +62,33 @@ size_t freeDent(const Dents& dents, uint32_t pressed) {
     return found;
 }
 
+/// Each dent's implicit step, with the others where they are: d and N satisfy both
+/// (tau + dt) d = tau d_0 + dt phi N / k' and N = k (below - phi d), or N is a bound and d follows. Returns
+/// by how much the surface is lowered.
+double stepDents(const LocalDeformation& law, double radius, const std::array<Reach, Dents::kMax>& reaches,
+                 const SurfaceSample& feel, DentPress& press) {
+    Dents& dents = press.dents;
+    const double ground = std::isnan(law.stiffness) ? feel.stiffness : law.stiffness, dt = press.dt;
+    double lowered = 0.0;
+    for (size_t i = 0; i < Dents::kMax; ++i)
+        lowered += dents.depth[i] * reaches[i].share;
+    for (size_t i = 0; i < Dents::kMax; ++i) {
+        const double share = reaches[i].share;
+        if (!(share > 0.0) || (press.pressed >> i & 1U) != 0)
+            continue;
+        press.pressed |= 1U << i;
+        double& depth = dents.depth[i];
+        lowered -= depth * share;
+        const double below = feel.depth - lowered, had = law.time * depth, step = law.time + dt;
+        const double pressing = (had + dt * share * feel.stiffness * below / ground) /
+                                (step + dt * share * share * feel.stiffness / ground);
+        const double load = std::clamp(feel.stiffness * (below - share * pressing), 0.0, press.maxForce);
+        depth = std::min((had + dt * share * load / ground) / step, radius);
+        lowered += depth * share;
+    }
+    return lowered;
+}
+
 } // namespace
 
 void pressDents(const HapticScene& scene, ObjectMotions motions, int reference, const Contact& contact,
@@ -103,27 +130,7 @@ void pressDents(const HapticScene& scene, ObjectMotions motions, int reference, 
         reaches[nearest] = reachOf(law, radius, scale, dents.centre[nearest], dents.normal[nearest], at);
     }
 
-    // Each dent's implicit step, with the others where they are: d and N satisfy both
-    // (tau + dt) d = tau d_0 + dt phi N / k' and N = k (below - phi d), or N is a bound and d follows.
-    const double ground = std::isnan(law.stiffness) ? feel.stiffness : law.stiffness;
-    double lowered = 0.0;
-    for (size_t i = 0; i < Dents::kMax; ++i)
-        lowered += dents.depth[i] * reaches[i].share;
-    for (size_t i = 0; i < Dents::kMax; ++i) {
-        const double share = reaches[i].share;
-        if (!(share > 0.0) || (press.pressed >> i & 1U) != 0)
-            continue;
-        press.pressed |= 1U << i;
-        double& depth = dents.depth[i];
-        lowered -= depth * share;
-        const double below = feel.depth - lowered, had = law.time * depth, step = law.time + dt;
-        const double pressing = (had + dt * share * feel.stiffness * below / ground) /
-                                (step + dt * share * share * feel.stiffness / ground);
-        const double load = std::clamp(feel.stiffness * (below - share * pressing), 0.0, press.maxForce);
-        depth = std::min((had + dt * share * load / ground) / step, radius);
-        lowered += depth * share;
-    }
-
+    const double lowered = stepDents(law, radius, reaches, feel, press);
     glm::dvec3 slope(0.0);
     for (size_t i = 0; i < Dents::kMax; ++i)
         slope += dents.depth[i] * reaches[i].slope;

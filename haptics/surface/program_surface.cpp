@@ -104,6 +104,17 @@ void take(const ProgramFelt& felt, const HapticSettings& settings, const glm::dq
     feel.dynamicFriction = felt.dynamicFriction;
 }
 
+/// What a program leaves in the persistent texture. `point`, `normal`: object frame.
+void queueStroke(const ProgramFelt& felt, int object, const glm::dvec3& point, const glm::dvec3& normal,
+                 double programPerObject, ProgramRun& run) {
+    run.textures->queue(
+        {.object = static_cast<uint32_t>(object),
+         .point = point,
+         .normal = normal,
+         .radius = felt.brush / programPerObject,
+         .change = run.part * felt.persistentChange * run.dt / (programPerObject * programPerObject)});
+}
+
 } // namespace
 
 ProgramRun programRun(const ToolMotion& tool, const glm::dvec3& velocity, double zoom, double dt,
@@ -170,12 +181,7 @@ void runProgram(const HapticScene& scene, ObjectMotions motions, const HapticSet
     else
         take(felt, settings, programFromReference, depth, feel);
     if (texture != nullptr && felt.persistentChange != 0.0 && felt.brush > 0.0)
-        run.textures->queue({.object = static_cast<uint32_t>(contact.object),
-                             .point = point,
-                             .normal = n,
-                             .radius = felt.brush / programFromObject.scale,
-                             .change = run.part * felt.persistentChange * run.dt /
-                                       (programFromObject.scale * programFromObject.scale)});
+        queueStroke(felt, contact.object, point, n, programFromObject.scale, run);
 }
 
 void followTool(const glm::dvec3& velocity, double dt, ToolMotion& tool) noexcept {

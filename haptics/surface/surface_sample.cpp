@@ -47,6 +47,21 @@ SurfaceSpot spotOf(const HapticObject& object, const HapticMaterialData& materia
     return readBump(spot, maps, blinn);
 }
 
+/// `share`: the map's factor; `stated`: the static coefficient of the material or the vertices.
+void readFriction(const HapticObject& object, const HapticMaterialData& material,
+                  const HapticSettings& settings, double share, double stated, SurfaceSample& feel) {
+    // A vertex attribute is the static coefficient; the dynamic one keeps its ratio to it.
+    const double ratio =
+        material.staticFriction > 0.0 ? material.dynamicFriction / material.staticFriction : 1.0;
+    feel.staticFriction = share * (settings.staticFriction >= 0.0 ? settings.staticFriction : stated);
+    feel.dynamicFriction =
+        share * (settings.dynamicFriction >= 0.0 ? settings.dynamicFriction : stated * ratio);
+    feel.dynamicFriction = std::min(feel.dynamicFriction, feel.staticFriction);
+    feel.viscousFriction = material.viscousFriction;
+    feel.coulomb = settings.staticFriction >= 0.0 ? settings.staticFriction > 0.0
+                                                  : material.staticFriction > 0.0 || !object.friction.empty();
+}
+
 } // namespace
 
 SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions, const HapticSettings& settings,
@@ -89,21 +104,9 @@ SurfaceSample readSurface(const HapticScene& scene, ObjectMotions motions, const
                       settings, limits);
     feel.damping = (settings.damping >= 0.0 ? feel.damping : spot.attribute(object.damping, feel.damping)) *
                    factor(material.dampingMap);
-    if (settings.friction != FrictionMode::Off) {
-        // A vertex attribute is the static coefficient; the dynamic one keeps its ratio to it.
-        const double share = factor(material.friction);
-        const double stated = spot.attribute(object.friction, material.staticFriction);
-        const double ratio =
-            material.staticFriction > 0.0 ? material.dynamicFriction / material.staticFriction : 1.0;
-        feel.staticFriction = share * (settings.staticFriction >= 0.0 ? settings.staticFriction : stated);
-        feel.dynamicFriction =
-            share * (settings.dynamicFriction >= 0.0 ? settings.dynamicFriction : stated * ratio);
-        feel.dynamicFriction = std::min(feel.dynamicFriction, feel.staticFriction);
-        feel.viscousFriction = material.viscousFriction;
-        feel.coulomb = settings.staticFriction >= 0.0
-                           ? settings.staticFriction > 0.0
-                           : material.staticFriction > 0.0 || !object.friction.empty();
-    }
+    if (settings.friction != FrictionMode::Off)
+        readFriction(object, material, settings, factor(material.friction),
+                     spot.attribute(object.friction, material.staticFriction), feel);
     if (settings.texture != TextureMode::Off && (material.textured() || !object.heights.empty())) {
         const Bump bump = settings.texture == TextureMode::BlinnMagnitude
                               ? readBumped(spot, maps, settings, feel.bump)

@@ -1,0 +1,124 @@
+// The start of a servo's tick: what its owner has offered since the last one, and checkpoints.
+
+#include "haptics/body/body_world.h"
+#include "haptics/proxy/place_proxy.h"
+#include "haptics/proxy/take_up_part.h"
+#include "haptics/servo/servo_touch.h"
+#include "haptics/world/soft_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone {
+
+/// Switches to another scene. The checkpoint taken then drops the candidates, which point into the previous
+/// one.
+void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
+    const bool edited = offer != nullptr && offer->geometry == 0; // of the present root (prepare)
+    const uint32_t geometry = offer == nullptr ? 0 : edited ? touch.geometry : offer->geometry;
+    const bool goesOn = geometry != 0 && geometry == touch.geometry;
+    const uint32_t part = offer == nullptr ? 0 : edited ? touch.part : offer->part;
+    const bool otherPart = part != touch.part;
+    touch.offer = offer;
+    touch.geometry = geometry;
+    touch.part = part;
+    if (offer != nullptr)
+        offer->world.forget();
+    if (goesOn) {
+        // As in a replay that resumes here: the objects have their previous poses.
+        if (std::isfinite(touch.previousTime))
+            offer->world.advance(touch.previousTime);
+        const ObjectMotions moved = offer->world.poses();
+        const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
+        for (DeviceState& device : touch.devices) {
+            if (otherPart)
+                takeUpPart(*offer->scene, offer->before == touch.root ? offer->partBefore.get() : nullptr,
+                           motions, feltRadius(*touch.settings), device);
+            else
+                letGoOfEmptied(*offer->scene, motions, device);
+            if (!offer->reshaped.empty())
+                takeUpReshaped(*offer->scene, motions, offer->reshaped, device);
+        }
+        return;
+    }
+    // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
+    for (DeviceState& device : touch.devices) {
+        letGo(device);
+        device.dents = {};
+        device.grasp = {};
+        ForceLimiter::restartRamp(device.limiter);
+    }
+    for (ToolPath& path : touch.paths)
+        path.release();
+    for (Touch::Felt& felt : touch.felt)
+        felt.feedback = TouchFeedback{};
+    touch.previousTime = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Start of a tick: the newest scene and settings, and checkpoints where they are due.
+void ServoLoop::prepare(Touch& touch) noexcept {
+    TickRecord& record = touch.record();
+    // The scene first: settings that were sent before it was offered are there.
+    const Offer* const root = scene_.adopt();
+    settings_.update();
+    const NumberedSettings& settings = root != nullptr && root->settings.number > settings_.value().number
+                                           ? root->settings
+                                           : settings_.value();
+    touch.settings = &settings.settings;
+    record.settings = settings.number;
+    if (forceSwitch_.off()) {
+        touch.settings = &settings.withoutForce;
+        record.settings |= kWithoutForce;
+    }
+    tools_.update();
+    record.tool = tools_.value().number;
+    touch.tool = tools_.value().tool.active ? &tools_.value().tool : nullptr;
+    const Offer* offer = root;
+    record.root = root != nullptr ? root->root : 0;
+    if (const Offer* const edited = edited_.adopt();
+        edited != nullptr && root != nullptr && edited->root == root->root)
+        offer = edited;
+    bool due = record.tick >= touch.nextCheckpoint;
+    if (const uint32_t number = offer != nullptr ? offer->number : 0; number != touch.scene) {
+        if (offer != root && record.root != touch.root)
+            adopt(touch, root); // its first edit came before its first tick
+        adopt(touch, offer);
+        if (offer != nullptr && offer->oldestEdit > 0)
+            record.editDelay = static_cast<uint32_t>(record.tick - offer->oldestEdit);
+        touch.scene = number;
+        touch.root = record.root;
+        due = true;
+    }
+    record.scene = touch.scene;
+    record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
+    if (record.checkpoint)
+        takeCheckpoints(touch);
+    if (offer != nullptr && offer->world.driven() != nullptr) [[unlikely]]
+        offer->world.driven()->begin(record.tick, record.dt, record.checkpoint);
+}
+
+/// One of every hand, that of hand 0 the last.
+void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
+    const TickRecord& record = touch.record();
+    checkpointWanted_.store(false, std::memory_order_relaxed);
+    touch.nextCheckpoint =
+        record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
+    if (touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
+        touch.offer->world.bodies()->keep(record.tick);
+    if (touch.offer != nullptr && touch.offer->world.soft() != nullptr)
+        touch.offer->world.soft()->keep(record.tick);
+    const size_t count = touch.checkpoints.size();
+    for (size_t i = 0; i < count; ++i) {
+        const size_t hand = count - 1 - i;
+        TouchCheckpoint& checkpoint = touch.checkpoints[i];
+        checkpoint.tick = record.tick;
+        checkpoint.hand = static_cast<uint32_t>(hand);
+        checkpoint.scene = record.scene;
+        checkpoint.previousTime = touch.previousTime;
+        takeCheckpoint(touch.devices[hand], checkpoint);
+    }
+    checkpoints_.push(touch.checkpoints);
+}
+
+} // namespace touchstone
