@@ -129,7 +129,7 @@ void placeTexels(const HapticScene* before, HapticScene& haptic, const Progress&
                      {object.name,
                       "has no texture coordinates that a persistent texture can follow: the program of "
                       "its material reads the initial value, and touch changes nothing; give the mesh a "
-                      "TEXCOORD_0 that repeats less than 64 times"});
+                      "TEXCOORD_0 that repeats it a few times at most"});
     }
 }
 

@@ -151,6 +151,18 @@ TEST(TexelMap, WithoutCoordinatesOrWhereTheyRepeatWithoutEndThereIsNone) {
     EXPECT_EQ(TouchBench(repeated).scene->texels.at(0), nullptr);
 }
 
+/// A hundred repeats each way of four by four texels: ten thousand places in each, among which looking for
+/// the right one took minutes.
+TEST(TexelMap, WhereThousandsOfPartsMeetInATexelThereIsNone) {
+    Scene source = planeOf(kPlaque, sized(4, 4));
+    source.meshes[0] = quadMesh(0.05, 100, glm::vec2(100.0f));
+    EXPECT_EQ(TouchBench(source).scene->texels.at(0), nullptr);
+    source.meshes[0] = quadMesh(0.05, 100, glm::vec2(3.0f)); // few are followed
+    const TouchBench bench(source);
+    ASSERT_NE(bench.scene->texels.at(0), nullptr);
+    EXPECT_GE(bench.scene->texels[0]->samples(), size_t{9 * 16});
+}
+
 /// The square of its area, 2e-22 of the object's size, is no float: a direction that was summed up by such
 /// was infinite.
 TEST(TexelMap, ASliverLooksToItsOwnSide) {
