@@ -116,7 +116,8 @@ class Touch {
         require(glm::length(command - last_) <= limits.maxForceRate * kTick * (1.0 + 1e-9),
                 "a command beyond maxForceRate");
         require(!has(o.flags, TickFlag::ForceFault), "a fault of the force");
-        if (usable)
+        const bool held = settings_.grasp != GraspMode::Off && o.object >= 0 && o.triangle == -1;
+        if (usable && !held) // a hand that holds an object touches by no method
             require(has(o.flags, TickFlag::NeighbourhoodMissing) ==
                         !refusalOf(hand_.world.touched(*model_.haptic), settings_).empty(),
                     "a contact method that is ready and was not used");
@@ -125,7 +126,6 @@ class Touch {
             const bool known = static_cast<size_t>(o.object) < model_.haptic->objects.size();
             require(known, "a touched object that is not there");
             const auto& object = known ? model_.haptic->objects[static_cast<size_t>(o.object)] : nullptr;
-            const bool held = settings_.grasp != GraspMode::Off && o.triangle == -1;
             require(object == nullptr || object->shape != nullptr || held ||
                         (o.triangle >= 0 && static_cast<size_t>(o.triangle) < object->triangleCount()),
                     "a touched triangle that is not there");
