@@ -79,11 +79,11 @@ SceneIdentity ChangedMaterials::identity(bool felt) const {
     return identity;
 }
 
-double feltNumber(const Scene& scene, uint64_t material, std::string_view name) {
+double feltNumber(const std::vector<Material>& materials, uint64_t material, std::string_view name) {
     const HapticNumber& number = numberOf(name);
-    requireBelow(material, scene.materials.size(), "material");
+    requireBelow(material, materials.size(), "material");
     const std::optional<float> value =
-        (scene.materials[static_cast<size_t>(material)].haptic.*number.settled).value;
+        (materials[static_cast<size_t>(material)].haptic.*number.settled).value;
     return value ? *value : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -22,6 +22,7 @@ class ChangedMaterials {
     void set(uint64_t material, std::string_view name, double value);
 
     [[nodiscard]] const std::shared_ptr<const HapticScene>& haptic() const { return haptic_; }
+    [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
     /// `felt`: with its hash, for which every vertex is read.
     [[nodiscard]] SceneIdentity identity(bool felt) const;
 
@@ -34,6 +35,7 @@ class ChangedMaterials {
 
 /// A value that is felt, before maps; NaN: the session's setting or the device's recommendation. Throws
 /// Refused.
-[[nodiscard]] double feltNumber(const Scene& scene, uint64_t material, std::string_view name);
+[[nodiscard]] double feltNumber(const std::vector<Material>& materials, uint64_t material,
+                                std::string_view name);
 
 } // namespace touchstone::api

@@ -2,7 +2,6 @@
 
 #include "api/c/calls.h"
 #include "devices/choice/device_choice.h"
-#include "devices/stroke/stroke_library.h"
 
 #include <cmath>
 
@@ -82,7 +81,7 @@ LiveHand::LiveHand(const char* device, const ts_device* own, const std::string& 
     }
 }
 
-Device& LiveHand::connect(const TouchedScene& scene, double late) {
+Device& LiveHand::connect(TouchedScene& scene, double late) {
     newest_ = {};
     if (own_ != nullptr)
         return *own_;
@@ -91,8 +90,7 @@ Device& LiveHand::connect(const TouchedScene& scene, double late) {
     if (device == nullptr) {
         StrokeRequest request;
         request.name = stroke_;
-        const auto stroke = std::make_shared<StrokePath>(
-            layStroke(*scene.source(), scene.haptic()->workspaceFromScene, request));
+        const std::shared_ptr<const StrokePath> stroke = scene.stroke(request);
         path_ = std::make_unique<SimulatedHand>(stroke, late * stroke->period());
         yielding_ = std::make_unique<HandImpedance>(*path_);
         device = yielding_.get();

@@ -42,7 +42,7 @@ class LiveHand {
     [[nodiscard]] bool simulated() const { return !stroke_.empty(); }
     /// The device for a new servo, which this outlives. A simulated hand strokes the scene, and begins `late`
     /// (0..1) of the stroke's period after the start.
-    [[nodiscard]] Device& connect(const TouchedScene& scene, double late);
+    [[nodiscard]] Device& connect(TouchedScene& scene, double late);
 
     /// A tick; `keep`: how many are kept.
     void take(const TickRecord& record, size_t keep);

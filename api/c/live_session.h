@@ -28,6 +28,7 @@ class LiveSession final : public Object, private TickSubscriber {
     void touch(std::shared_ptr<TouchedScene> scene);
     void set(std::string_view name, std::string_view value);
     void material(uint64_t material, std::string_view name, double value);
+    [[nodiscard]] double materialNumber(uint64_t material, std::string_view name);
     /// Null: all objects that were moved stop where they are.
     void move(uint64_t object, const ts_pose* pose);
     [[nodiscard]] ts_pose pose(uint64_t object);
@@ -58,10 +59,8 @@ class LiveSession final : public Object, private TickSubscriber {
     void makeSession();
     void enableControl();
     [[nodiscard]] ControlLoop& controlLoop();
-    void stateFrom(const ControlLoop::State& control, ts_state& state) const;
     [[nodiscard]] LiveHand& hand(size_t number);
     [[nodiscard]] ts_state state();
-    [[nodiscard]] ts_state stateOf(const TickRecord& tick) const;
 
     mutable std::recursive_mutex mutex_;
     double rate_;

@@ -154,7 +154,7 @@ void touchPaths(OfflineHand& hands, const ts_path* paths, const ts_ticks* ticks,
     touchPaths(hands, whole, arrays, done);
 }
 
-void layPath(const TouchedScene& scene, const StrokeRequest& request, double rate, double* positions,
+void layPath(TouchedScene& scene, const StrokeRequest& request, double rate, double* positions,
              size_t capacity, size_t& rows) {
     if (!(rate >= 1.0 && rate <= 1e6))
         refuseArgument("rate", "is not within 1 .. 1e6 Hz");
@@ -162,11 +162,11 @@ void layPath(const TouchedScene& scene, const StrokeRequest& request, double rat
         refuseArgument("name", problem);
     if (positions == nullptr && capacity > 0)
         refuseArgument("positions", "is null, and its capacity is not 0");
-    const StrokePath stroke = layStroke(*scene.source(), scene.haptic()->workspaceFromScene, request);
-    rows = static_cast<size_t>(std::floor(stroke.period() * rate * (1.0 + 1e-12))) + 1;
+    const std::shared_ptr<const StrokePath> stroke = scene.stroke(request);
+    rows = static_cast<size_t>(std::floor(stroke->period() * rate * (1.0 + 1e-12))) + 1;
     for (size_t i = 0; i < std::min(rows, capacity); ++i) {
         const double time = static_cast<double>(i) / rate;
-        const glm::dvec3 place = stroke.positionIn(time, time);
+        const glm::dvec3 place = stroke->positionIn(time, time);
         for (int axis = 0; axis < 3; ++axis)
             positions[3 * i + static_cast<size_t>(axis)] = place[axis];
     }
@@ -259,7 +259,8 @@ ts_status ts_scene_material_name(ts_scene scene, uint64_t material, char* text, 
 ts_status ts_scene_material_number(ts_scene scene, uint64_t material, const char* name, double* value) {
     return call([&] {
         (void)given(value, "value");
-        *value = feltNumber(*take<TouchedScene>(scene, kScene)->source(), material, textOf(name, "name"));
+        *value = feltNumber(take<TouchedScene>(scene, kScene)->source()->materials, material,
+                            textOf(name, "name"));
     });
 }
 

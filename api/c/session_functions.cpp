@@ -46,6 +46,13 @@ ts_status ts_session_material(ts_session session, uint64_t material, const char*
     return call([&] { live(session)->material(material, textOf(name, "name"), value); });
 }
 
+ts_status ts_session_material_number(ts_session session, uint64_t material, const char* name, double* value) {
+    return call([&] {
+        (void)given(value, "value");
+        *value = live(session)->materialNumber(material, textOf(name, "name"));
+    });
+}
+
 ts_status ts_session_move(ts_session session, uint64_t object, const ts_pose* pose) {
     return call([&] {
         const ts_pose whole = structOf(&given(pose, "pose"), "pose");
@@ -120,11 +127,22 @@ ts_status ts_recording_open(const char* file, ts_recording* recording) {
     });
 }
 
+ts_status ts_recording_hands(ts_recording recording, size_t* hands) {
+    return call([&] {
+        (void)given(hands, "hands");
+        *hands = recorded(recording)->hands();
+    });
+}
+
 ts_status ts_recording_read(ts_recording recording, const ts_ticks* ticks, size_t* count) {
+    return ts_recording_read_hand(recording, 0, ticks, count);
+}
+
+ts_status ts_recording_read_hand(ts_recording recording, size_t hand, const ts_ticks* ticks, size_t* count) {
     return call([&] {
         (void)given(count, "count");
         (void)given(ticks, "ticks");
-        *count = recorded(recording)->read(TickArrays(ticks, 0));
+        *count = recorded(recording)->read(hand, TickArrays(ticks, 0));
     });
 }
 

@@ -3,6 +3,8 @@
 #include "haptics/scene/built_for.h"
 #include "haptics/world/world_state.h"
 
+#include <algorithm>
+
 namespace touchstone::api {
 
 TouchedScene::TouchedScene(ScenePtr scene, Fit fit) : source_(std::move(scene)), fit_(fit) {
@@ -41,6 +43,20 @@ SceneIdentity TouchedScene::identity() {
     if (identity_ == nullptr)
         identity_ = std::make_unique<const SceneIdentity>(identify(*haptic_, *source_, fit_));
     return *identity_;
+}
+
+std::shared_ptr<const StrokePath> TouchedScene::stroke(const StrokeRequest& request) {
+    constexpr size_t kKept = 4; // as many as a session has hands
+    const std::lock_guard lock(laying_);
+    const auto laid =
+        std::ranges::find_if(strokes_, [&](const LaidStroke& one) { return one.request == request; });
+    if (laid != strokes_.end())
+        return laid->path;
+    auto path = std::make_shared<const StrokePath>(layStroke(*source_, haptic_->workspaceFromScene, request));
+    if (strokes_.size() == kKept)
+        strokes_.pop_front();
+    strokes_.push_back({request, path});
+    return path;
 }
 
 } // namespace touchstone::api

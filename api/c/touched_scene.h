@@ -1,10 +1,12 @@
 #pragma once
 
 #include "api/c/handles.h"
+#include "devices/stroke/stroke_library.h"
 #include "haptics/recording/scene_identity.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -28,6 +30,9 @@ class TouchedScene final : public Object {
     void prepareFor(const HapticSettings& settings);
     /// For recordings; reads the file again the first time. Any thread.
     [[nodiscard]] SceneIdentity identity();
+    /// Laid once for as long as it is among the newest: callers ask twice, for the number of rows and for the
+    /// rows, and several hands follow one. Any thread. Throws Error.
+    [[nodiscard]] std::shared_ptr<const StrokePath> stroke(const StrokeRequest& request);
 
   private:
     ScenePtr source_;
@@ -36,6 +41,12 @@ class TouchedScene final : public Object {
     std::vector<std::string> warnings_;
     std::mutex building_;
     std::unique_ptr<const SceneIdentity> identity_; // guarded by building_
+    struct LaidStroke {
+        StrokeRequest request;
+        std::shared_ptr<const StrokePath> path;
+    };
+    std::mutex laying_;
+    std::deque<LaidStroke> strokes_; // the newest last; guarded by laying_
 };
 
 } // namespace touchstone::api

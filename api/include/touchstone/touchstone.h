@@ -339,8 +339,13 @@ TS_API ts_status ts_session_create(const ts_session_options* options, ts_session
 TS_API ts_status ts_session_touch(ts_session session, ts_scene scene);
 TS_API ts_status ts_session_set(ts_session session, const char* name, const char* value);
 /* A number of a material of the touched scene, from the next tick on; touch goes on. NaN: what the file says
- * again. The next ts_session_touch begins with what the scene says. A recording has it. */
+ * again. The next ts_session_touch begins with what the scene says. A recording has it.
+ * Materials of the scene that are one in the file (it touches parts of it as another surface) change
+ * together. */
 TS_API ts_status ts_session_material(ts_session session, uint64_t material, const char* name, double value);
+/* As ts_scene_material_number, with what ts_session_material has changed. */
+TS_API ts_status ts_session_material_number(ts_session session, uint64_t material, const char* name,
+                                            double* value);
 /* From the next tick on the object goes to the pose on the straight way, no faster than the pose says. The
  * hand is pushed along as by an animated object, within the limits of the device. Up to 16 objects of a
  * scene, none that its animation or physics moves. The next ts_session_touch begins with the scene at rest. A
@@ -386,6 +391,11 @@ TS_API ts_status ts_recording_open(const char* file, ts_recording* recording);
 /* The next ticks of hand 0, at most ticks->capacity; `count` 0: the end. A recording has no normal,
  * penetration, friction, object and triangle: these arrays have to be NULL. Damaged places are skipped. */
 TS_API ts_status ts_recording_read(ts_recording recording, const ts_ticks* ticks, size_t* count);
+/* The hands that it has ticks of, 1 to 4, as far as it has been read. */
+TS_API ts_status ts_recording_hands(ts_recording recording, size_t* hands);
+/* The next ticks of a hand; each hand is read on its own, from the beginning. */
+TS_API ts_status ts_recording_read_hand(ts_recording recording, size_t hand, const ts_ticks* ticks,
+                                        size_t* count);
 /* "version", "build", "processor", "command", "date" of the program that made it, "scene" (its path), or
  * "damage" (a line a place); as ts_scene_warning. What has not been read yet is empty. */
 TS_API ts_status ts_recording_text(ts_recording recording, const char* what, char* text, size_t capacity,

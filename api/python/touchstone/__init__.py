@@ -246,6 +246,11 @@ class Session:
         """A number of a material of the scene from the next tick on (docs/materials.md); None: as in the file."""
         self._session.material(material, name, float("nan") if value is None else value)
 
+    def material_number(self, material, name):
+        """As it is felt now, before maps; None: the session's setting or the device's recommendation."""
+        value = self._session.material_number(material, name)
+        return None if value != value else value
+
     def move(self, object, position, orientation=(1.0, 0.0, 0.0, 0.0), *, speed=0.1, turn=1.0):
         """From the next tick on an object goes to a pose: `position` of its centre (m, workspace), `orientation` (w, x, y, z) its turn from
         how it stands at rest; at most `speed` (m/s, to 0.5) and `turn` (rad/s, to 6.3) fast. The hand is pushed along."""
@@ -306,9 +311,14 @@ class Recording:
     def __init__(self, file):
         self._recording = _touchstone.Recording(os.fspath(file))
 
-    def read(self, most=1_000_000):
-        """The next ticks of hand 0 as Ticks; none at the end."""
-        return Ticks(self._recording.read(most))
+    @property
+    def hands(self):
+        """How many hands it has ticks of."""
+        return self._recording.hands()
+
+    def read(self, most=1_000_000, *, hand=0):
+        """The next ticks of a hand as Ticks; none at the end. Each hand is read on its own, from the beginning."""
+        return Ticks(self._recording.read(most, hand))
 
     def text(self, what):
         """"version", "build", "processor", "command", "date", "scene" or "damage", of what has been read."""

@@ -28,46 +28,44 @@ class ServerError(Exception):
     """The server refused a message, or closed the connection."""
 
 
-def token_of(port):
-    """The token of the server on that port, out of the file that only its user may read."""
+def token_of(port, address="127.0.0.1"):
+    """The token of the server on that port (and address of this machine), out of the file that only its user may read."""
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     folder = (pathlib.Path(runtime) / "touchstone" if runtime.startswith("/")
               else pathlib.Path(tempfile.gettempdir()) / f"touchstone-{os.getuid()}")
-    return (folder / f"serve-{port}.token").read_text()
+    usual = address in ("127.0.0.1", "0.0.0.0", "localhost")
+    return (folder / (f"serve-{port}.token" if usual else f"serve-{address}-{port}.token")).read_text()
 
 
 class Client:
     def __init__(self, where, token=None, *, timeout=10.0, certificate=None):
-        """`where`: a port on this machine, the path of a Unix socket, or the https address of a server with TLS, which needs `token` (the
-        server's file has it). `certificate`: file of the certificates that are trusted (PEM); None: the system's. Authenticates;
-        `self.hello` is the answer."""
-        self.events, self.ticks, self._asked = [], [], 0
-        if isinstance(where, int):
-            self._socket = socket.create_connection(("127.0.0.1", where), timeout)
-            host = f"127.0.0.1:{where}"
-        elif isinstance(where, str) and where.startswith("https://"):
-            if token is None:
-                raise ValueError("token: is missing; it is in a file on the server's machine")
+        """`where`: a port of this machine, the path of a Unix socket, the http address of a server on loopback ("http://127.0.0.2:8790"), or
+        the https address of one with TLS, which needs `token` (the server's file has it). `certificate`: file of the certificates that are
+        trusted (PEM); None: the system's. Authenticates; `self.hello` is the answer."""
+        self.events, self.ticks, self._asked, self._touched = [], [], 0, {}
+        where = f"http://127.0.0.1:{where}" if isinstance(where, int) else os.fspath(where)
+        if where.startswith(("http://", "https://")):
             address = urllib.parse.urlsplit(where)
-            host = address.netloc
-            plain = socket.create_connection((address.hostname, address.port or 443), timeout)
-            try:
-                self._socket = ssl.create_default_context(cafile=certificate).wrap_socket(plain, server_hostname=address.hostname)
-            except BaseException:
-                plain.close()
-                raise
+            secure, host = address.scheme == "https", address.netloc
+            if secure and token is None:
+                raise ValueError("token: is missing; it is in a file on the server's machine")
+            self._place = (address.port or (443 if secure else 80), address.hostname)
+            self._socket = socket.create_connection((address.hostname, self._place[0]), timeout)
         else:
-            token, host = "", "unix"
+            token, host, secure = "", "unix", False
             self._socket = socket.socket(socket.AF_UNIX)
             self._socket.settimeout(timeout)
-            self._socket.connect(os.fspath(where))
+            self._socket.connect(where)
         try:
-            self._open(host, where, token)
+            if secure:
+                context = ssl.create_default_context(cafile=certificate)
+                self._socket = context.wrap_socket(self._socket, server_hostname=address.hostname)
+            self._open(host, token)
         except BaseException:
             self.close()
             raise
 
-    def _open(self, host, where, token):
+    def _open(self, host, token):
         self._socket.sendall((f"GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                               f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n"
                               "Sec-WebSocket-Version: 13\r\n\r\n").encode())
@@ -77,7 +75,7 @@ class Client:
         head, self._buffer = self._buffer.split(b"\r\n\r\n", 1)
         if b" 101 " not in head.split(b"\r\n")[0]:
             raise ServerError(head.split(b"\r\n")[0].decode(errors="replace"))
-        self.hello = self.ask("authenticate", token=token_of(where) if token is None else token)
+        self.hello = self.ask("authenticate", token=token_of(*self._place) if token is None else token)
 
     def __enter__(self):
         return self
@@ -130,7 +128,11 @@ class Client:
                 if first & 0x80:
                     break
         if kind == 2:
-            return numpy.frombuffer(payload, TICK, offset=16)
+            ticks, answers = numpy.frombuffer(payload, TICK, offset=16), struct.unpack_from("<I", payload, 12)[0]
+            if answers == 0:
+                return ticks
+            self._touched.setdefault(answers, []).append(ticks)
+            return self.receive()
         return json.loads(payload)
 
     def ask(self, verb, **members):
@@ -147,6 +149,26 @@ class Client:
                 return message
             else:
                 self.events.append(message)
+
+    def touch(self, **members):
+        """The ticks of a path that the server touches offline: `stroke`, or `positions` (N, 3) m, and optional `rate` (Hz) and `settings`:
+        what `touchstone touch` computes, to the last bit (docs/server.md)."""
+        if "positions" in members:
+            members["positions"] = numpy.asarray(members["positions"], float).tolist()
+        self.ask("touch", **members)
+        number = self._asked
+        kept = []
+        while True:
+            message = self.events.pop(0) if self.events else self.receive()
+            if isinstance(message, numpy.ndarray):
+                self.ticks.append(message)
+            elif message.get("id") != number:
+                kept.append(message)
+            else:
+                self.events = kept + self.events
+                if message["event"] == "error":
+                    raise ServerError(message["error"])
+                return numpy.concatenate(self._touched.pop(number, [numpy.empty(0, TICK)]))
 
     def event(self, name):
         """The next event of that name."""

@@ -1,7 +1,7 @@
 // Real time through the library. Times are not asserted: a loaded machine misses deadlines.
 
 #include "tests/support/program.h"
-#include "tests/unit/api/floor.h"
+#include "tests/unit/api/pressing.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -18,69 +16,6 @@
 
 namespace touchstone::test {
 namespace {
-
-/// A device that presses 2 mm into the floor, and what it was commanded.
-struct Pressing {
-    std::atomic<int> samples{0};
-    std::atomic<double> force{0.0}, largest{0.0};
-
-    ts_device device() {
-        ts_device device = TS_STRUCT(ts_device);
-        device.context = this;
-        device.sample = [](void* context, double time, ts_reading* reading) {
-            ++static_cast<Pressing*>(context)->samples;
-            const double depth =
-                std::min(0.002, 0.5 * time - 0.15); // a hand that begins near the model must leave it first
-            reading->position[1] = -depth;
-            reading->valid = 1;
-        };
-        device.apply = [](void* context, const double newtons[3]) {
-            auto& self = *static_cast<Pressing*>(context);
-            self.force = newtons[1];
-            self.largest = std::max(self.largest.load(), newtons[1]);
-        };
-        device.max_force = 1.0;
-        return device;
-    }
-};
-
-/// False where it does not come to hold in a minute.
-template <class Holds>
-bool withinAMinute(const Holds& holds) {
-    for (int i = 0; i < 6000; ++i) {
-        if (holds())
-            return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-}
-
-/// A session with that device, by the C interface.
-struct PressedSession {
-    Pressing pressing;
-    const ts_device device = pressing.device();
-    ts::Handle<ts_session, ts_session_close> handle;
-    ts_state state = TS_STRUCT(ts_state); ///< of the last pump
-
-    explicit PressedSession(ts_session_options options = TS_STRUCT(ts_session_options)) {
-        options.own = &device;
-        ts::check(ts_session_create(&options, handle.out()));
-    }
-    /// Pumps until `done` holds; false after a minute.
-    template <class Done>
-    bool until(const Done& done) {
-        return withinAMinute([&] {
-            ts::check(ts_session_pump(handle.get(), &state));
-            return done();
-        });
-    }
-};
-
-/// Pumps until `done` holds; false after a minute.
-template <class Done>
-bool pumpUntil(ts::Session& session, const Done& done) {
-    return withinAMinute([&] { return done(session.pump()); });
-}
 
 TEST(LiveSession, GivesTheForceToAnOwnDeviceWithinItsLimits) {
     Pressing pressing;
@@ -199,47 +134,6 @@ TEST(LiveSession, HoldsAnOwnDeviceByAControlLoopApart) {
     EXPECT_LE(pressing.largest, 1.0 + 1e-12);
 }
 
-TEST(LiveSession, ChangesAMaterialWhileItIsTouched) {
-    PressedSession pressed;
-    const Pressing& pressing = pressed.pressing;
-    ts_session session = pressed.handle.get();
-    EXPECT_EQ(ts_session_material(session, 0, "stiffness", 100.0), TS_STATE);
-    const ts::Scene scene({floorMesh()});
-    ts::check(ts_session_touch(session, scene.get()));
-    ts::check(ts_session_start(session));
-    const auto reaches = [&](double newtons) {
-        return pressed.until([&] { return std::abs(pressing.force - newtons) < 1e-3; });
-    };
-    EXPECT_TRUE(reaches(1.0)); // 600 N/m, 2 mm deep, at most 1 N
-    ts::check(ts_session_material(session, 0, "stiffness", 100.0));
-    EXPECT_TRUE(reaches(0.2));
-    ts::check(ts_session_material(session, 0, "stiffness", 300.0));
-    EXPECT_TRUE(reaches(0.6));
-    EXPECT_EQ(ts_session_material(session, 1, "stiffness", 1.0), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_material(session, ~uint64_t{0}, "stiffness", 1.0), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_material(session, 0, "voxelSize", 1.0), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_material(session, 0, nullptr, 1.0), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_material(session, 0, "stiffness", -1.0), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_material(session, 0, "stiffness", INFINITY), TS_ARGUMENT);
-    EXPECT_TRUE(reaches(0.6)) << "a refused call changes nothing";
-    ts::check(ts_session_material(session, 0, "stiffness", NAN));
-    EXPECT_TRUE(reaches(1.0));
-
-    double value = 0.0;
-    ts::check(ts_scene_material_number(scene.get(), 0, "stiffness", &value));
-    EXPECT_TRUE(std::isnan(value));
-    EXPECT_EQ(ts_scene_material_number(scene.get(), 9, "stiffness", &value), TS_ARGUMENT);
-    EXPECT_EQ(ts_scene_material_number(scene.get(), 0, "stiffness", nullptr), TS_ARGUMENT);
-    ts_number_info info = TS_STRUCT(ts_number_info);
-    EXPECT_GT(ts_material_number_count(), 4u);
-    ts::check(ts_material_number_get_info(0, &info));
-    EXPECT_LT(info.least, info.most);
-    EXPECT_EQ(ts_material_number_get_info(ts_material_number_count(), &info), TS_ARGUMENT);
-    size_t needed = 0;
-    ts::check(ts_scene_material_name(scene.get(), 0, nullptr, 0, &needed));
-    EXPECT_GT(needed, 1u);
-}
-
 // The goal may come before the loop has heard that it is to follow goals.
 TEST(LiveSession, TheFirstGoalAfterRenderIsFollowed) {
     ts_session_options options = TS_STRUCT(ts_session_options);
@@ -270,176 +164,6 @@ TEST(LiveSession, TheFirstGoalAfterRenderIsFollowed) {
         (void)pressed.until([&] { return state.rendered == 0; });
     }
     EXPECT_EQ(followedTurns, 3);
-}
-
-/// Three squares side by side as a .gltf: the first one has material 0, the others, the middle one of which
-/// the hand touches, have none.
-std::filesystem::path threeSquares(const ScratchFolder& folder) {
-    std::vector<float> corners;
-    for (const float x : {-0.075f, -0.025f, 0.025f})
-        for (const auto& [dx, z] : {std::pair{0.0f, -0.05f}, {0.0f, 0.05f}, {0.05f, 0.05f}, {0.05f, -0.05f}})
-            corners.insert(corners.end(), {x + dx, 0.0f, z});
-    const std::vector<uint16_t> indices{0, 1, 2, 0, 2, 3};
-    std::ofstream data(folder / "squares.bin", std::ios::binary);
-    data.write(reinterpret_cast<const char*>(corners.data()),
-               static_cast<std::streamsize>(4 * corners.size()));
-    data.write(reinterpret_cast<const char*>(indices.data()),
-               static_cast<std::streamsize>(2 * indices.size()));
-    data.close();
-    std::ofstream text(folder / "squares.gltf");
-    text << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-"materials":[{"name":"one"}],"buffers":[{"uri":"squares.bin","byteLength":156}],
-"bufferViews":[{"buffer":0,"byteLength":144},{"buffer":0,"byteOffset":144,"byteLength":12}],
-"meshes":[{"primitives":[)";
-    for (int i = 0; i < 3; ++i)
-        text << (i > 0 ? "," : "") << R"({"attributes":{"POSITION":)" << i << R"(},"indices":3)"
-             << (i == 0 ? R"(,"material":0})" : "}");
-    text << R"(]}],"accessors":[)";
-    for (int i = 0; i < 3; ++i)
-        text << R"({"bufferView":0,"byteOffset":)" << 48 * i
-             << R"(,"componentType":5126,"count":4,"type":"VEC3","min":[)" << corners[12 * i]
-             << ",0,-0.05],\"max\":[" << corners[12 * i] + 0.05f << ",0,0.05]},";
-    text << R"({"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}]})";
-    return folder / "squares.gltf";
-}
-
-TEST(LiveSession, ARecordingHasChangesOfSurfacesThatTheFileHasNoMaterialFor) {
-    const ScratchFolder folder;
-    const std::string model = threeSquares(folder).string(), file = (folder / "changed.tsrec").string();
-    PressedSession pressed;
-    ts_session session = pressed.handle.get();
-    const ts::Scene scene(model, TS_FIT_NONE);
-    ASSERT_EQ(scene.info().materials, 2u);
-    ts::check(ts_session_touch(session, scene.get()));
-    ts::check(ts_session_start(session));
-    const ts_state& state = pressed.state;
-    const auto touches = [&](double newtons) {
-        return pressed.until([&] { return state.contacts > 0 && std::abs(state.force[1] - newtons) < 1e-3; });
-    };
-    EXPECT_TRUE(touches(1.2));
-    ts::check(ts_session_material(session, 0, "stiffness", 400.0)); // before the recording
-    ts::check(ts_session_material(session, 1, "stiffness", 100.0));
-    ts::check(ts_session_record(session, file.c_str()));
-    EXPECT_TRUE(touches(0.2));
-    ts::check(ts_session_material(session, 1, "stiffness", 300.0)); // and in it
-    EXPECT_TRUE(touches(0.6));
-    ts::check(ts_session_record(session, nullptr));
-    ts::check(ts_session_stop(session));
-    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
-    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
-}
-
-TEST(LiveSession, MovesAnObjectUnderTheHandAndRecordsIt) {
-    const ScratchFolder folder;
-    const std::string model = threeSquares(folder).string(), file = (folder / "moved.tsrec").string();
-    ts_session_options options = TS_STRUCT(ts_session_options);
-    options.keep = 1'000'000;
-    PressedSession pressed(options);
-    const Pressing& pressing = pressed.pressing;
-    ts_session session = pressed.handle.get();
-    ts_pose pose = TS_STRUCT(ts_pose);
-    EXPECT_EQ(ts_session_move(session, 0, &pose), TS_STATE);
-    EXPECT_EQ(ts_session_halt(session), TS_STATE);
-    const ts::Scene scene(model, TS_FIT_NONE);
-    const uint64_t objects = scene.info().objects;
-    ts::check(ts_session_touch(session, scene.get()));
-    ts::check(ts_session_record(session, file.c_str()));
-    ts::check(ts_session_start(session));
-    ts_state& state = pressed.state;
-    const auto until = [&](const auto& done) { return pressed.until(done); };
-    EXPECT_TRUE(until([&] { return state.contacts > 0 && state.force[1] > 1.1; }));
-    const auto object = static_cast<uint64_t>(state.object); // the hand's
-    ts_object_info info = TS_STRUCT(ts_object_info);
-    ts::check(ts_scene_object(scene.get(), object, &info));
-    EXPECT_EQ(info.movable, 1);
-    EXPECT_EQ(ts_scene_object(scene.get(), objects, &info), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_move(session, objects, &pose), TS_ARGUMENT);
-    EXPECT_EQ(ts_session_move(session, object, nullptr), TS_ARGUMENT);
-    for (const auto& wrong : {std::pair{&ts_pose::speed, 0.6},
-                              {&ts_pose::speed, -0.1},
-                              {&ts_pose::turn, 7.0},
-                              {&ts_pose::turn, std::nan("")}}) {
-        ts_pose bad = pose;
-        bad.*wrong.first = wrong.second;
-        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT);
-    }
-    for (const double wrong : {1.5, double{INFINITY}, std::nan("")}) {
-        ts_pose bad = pose;
-        bad.position[1] = wrong;
-        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT) << wrong;
-        bad = pose;
-        bad.orientation[2] = wrong;
-        EXPECT_EQ(ts_session_move(session, object, &bad), TS_ARGUMENT) << wrong;
-    }
-    // Up by 1 mm: the hand stays where it is and is pressed 3 mm deep, the device's limit aside; down by 5 mm
-    // it is free.
-    std::copy(info.centre, info.centre + 3, pose.position);
-    pose.position[1] += 0.001;
-    pose.speed = 0.01;
-    ts::check(ts_session_move(session, object, &pose));
-    EXPECT_TRUE(until([&] { return state.force[1] > 1.75; }));
-    EXPECT_NEAR(state.proxy[1], info.centre[1] + 0.001, 1e-4);
-    pose.position[1] -= 0.006;
-    ts::check(ts_session_move(session, object, &pose));
-    EXPECT_TRUE(until([&] { return state.contacts == 0 && state.force[1] == 0.0; }));
-    ts_pose now = TS_STRUCT(ts_pose);
-    EXPECT_TRUE(until([&] {
-        ts::check(ts_session_pose(session, object, &now));
-        return now.position[1] == pose.position[1];
-    }));
-    EXPECT_EQ(now.orientation[0], 1.0);
-    // Halted on its way it stays there.
-    pose.position[1] = 0.2;
-    ts::check(ts_session_move(session, object, &pose));
-    EXPECT_TRUE(until([&] {
-        ts::check(ts_session_pose(session, object, &now));
-        return now.position[1] > info.centre[1] - 0.0045;
-    }));
-    ts::check(ts_session_halt(session));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ts::check(ts_session_pump(session, &state));
-    ts::check(ts_session_pose(session, object, &now));
-    ts_pose later = TS_STRUCT(ts_pose);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ts::check(ts_session_pose(session, object, &later));
-    EXPECT_EQ(later.position[1], now.position[1]);
-    EXPECT_LT(now.position[1], 0.1);
-    ts::check(
-        ts_session_material(session, 0, "stiffness", 400.0)); // its motion outlives a change of materials
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ts::check(ts_session_pump(session, &state));
-    ts::check(ts_session_pose(session, object, &later));
-    EXPECT_EQ(later.position[1], now.position[1]);
-    ts::check(ts_session_record(session, nullptr));
-    ts::check(ts_session_stop(session));
-    EXPECT_LE(pressing.largest, 1.0 + 1e-12);
-    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
-    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
-}
-
-/// More ticks take goals than there is room for their states, and nobody pumps: none is lost.
-TEST(LiveSession, RecordsEveryGoalWithoutAPump) {
-    const ScratchFolder folder;
-    const std::string file = (folder / "goals.tsrec").string();
-    Pressing pressing;
-    ts::Session session(pressing.device(), 4000.0);
-    session.touch(ts::Scene(threeSquares(folder).string()));
-    session.record(file);
-    session.start();
-    ts_pose pose = TS_STRUCT(ts_pose);
-    pose.speed = 0.001;
-    const ts_state begin = session.pump();
-    for (int goal = 0; goal < 6000; ++goal) {
-        pose.position[1] = 1e-6 * goal;
-        session.move(0, pose);
-        std::this_thread::sleep_for(std::chrono::microseconds(300));
-    }
-    session.halt();
-    EXPECT_GT(session.pump().ticks, begin.ticks + 3000);
-    session.endRecording();
-    session.stop();
-    const ProgramResult replay = runProgram({TOUCHSTONE_BINARY, "replay", file});
-    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }
 
 TEST(LiveSession, RefusesGoalsThatAreNone) {
@@ -532,7 +256,62 @@ TEST(LiveSession, CallsBackAndRecordsAStroke) {
                   return ts_recording_text(recording, "command", out, room, needed);
               }),
               "api");
+    EXPECT_EQ(ts_recording_hands(recording, &none), TS_OK);
+    EXPECT_EQ(none, 1u);
+    EXPECT_EQ(ts_recording_read_hand(recording, 1, &arrays, &none), TS_ARGUMENT);
     ts::check(ts_recording_close(recording));
+}
+
+/// The ticks of each hand, in pieces that are no multiple of the chunks, whichever is read first.
+TEST(LiveSession, RecordsEveryHand) {
+    const ScratchFolder folder;
+    const std::string file = (folder / "hands.tsrec").string();
+    ts_other_hand others[2]{TS_STRUCT(ts_other_hand), TS_STRUCT(ts_other_hand)};
+    others[0].device = "stroke:spiral";
+    others[1].device = "stroke:circle";
+    ts_session_options options = TS_STRUCT(ts_session_options);
+    options.device = "stroke:circle";
+    options.others = others;
+    options.other_count = 2;
+    options.keep = 100'000;
+    ts::Session session(options);
+    session.touch(ts::Scene(TOUCHSTONE_ASSETS "/doughnut.glb", TS_FIT_WORKSPACE));
+    session.record(file);
+    session.start();
+    EXPECT_TRUE(pumpUntil(session, [&](const ts_state& first) {
+        return first.contacts > 0 && session.hand(1).contacts > 0 && session.hand(2).contacts > 0;
+    }));
+    session.stop();
+    session.endRecording();
+    ts::Handle<ts_recording, ts_recording_close> recording;
+    ts::check(ts_recording_open(file.c_str(), recording.out()));
+    for (const size_t hand : {2, 0, 1}) {
+        ts::Ticks kept(100'000), read(777);
+        ts_ticks arrays = kept.arrays();
+        size_t ticks = 0, done = 0, contacts = 0, count = 0;
+        ts::check(ts_session_take_hand(session.get(), hand, &arrays, &ticks));
+        arrays = read.arrays();
+        arrays.normal = nullptr;
+        arrays.penetration = nullptr;
+        do {
+            ts::check(ts_recording_read_hand(recording.get(), hand, &arrays, &count));
+            ASSERT_LE(done + count, ticks);
+            for (size_t i = 0; i < count; ++i, ++done) {
+                ASSERT_EQ(read.time[i], kept.time[done]);
+                ASSERT_EQ(read.hip[i], kept.hip[done]);
+                ASSERT_EQ(read.force[i], kept.force[done]);
+                ASSERT_EQ(read.command[i], kept.command[done]);
+                contacts += read.contacts[i] > 0 ? 1 : 0;
+            }
+        } while (count > 0);
+        EXPECT_GT(contacts, 0u) << hand;
+        EXPECT_EQ(done, ticks) << hand;
+    }
+    size_t hands = 0;
+    ts::check(ts_recording_hands(recording.get(), &hands));
+    EXPECT_EQ(hands, 3u);
+    EXPECT_EQ(ts_recording_read_hand(recording.get(), 3, nullptr, &hands), TS_ARGUMENT);
+    EXPECT_EQ(ts_recording_hands(recording.get(), nullptr), TS_ARGUMENT);
 }
 
 TEST(LiveSession, EndsWhereTheCallbackSaysSoOrThrows) {

@@ -165,8 +165,27 @@ class Live(unittest.TestCase):
             read = touchstone.Recording(f"{folder}/a.tsrec").read()
             self.assertTrue(numpy.array_equal(kept.force, read.force))
             self.assertIsNone(read.normal)
+            self.assertEqual(touchstone.Recording(f"{folder}/a.tsrec").hands, 1)
             replay = subprocess.run([PROGRAM, "replay", f"{folder}/a.tsrec"], capture_output=True, text=True)
             self.assertEqual(replay.returncode, 0, replay.stderr)
+
+    def test_a_recording_has_every_hand(self):
+        with tempfile.TemporaryDirectory() as folder, touchstone.Session("stroke:circle", others=["stroke:spiral", "stroke:circle"],
+                                                                         keep=100_000) as session:
+            session.touch(touchstone.Scene(SCENES / "doughnut.glb", fit="workspace"))
+            session.record(f"{folder}/a.tsrec")
+            session.run(60, lambda state: bool(min(session.hand(i).contacts for i in range(3)) == 0))
+            session.record(None)
+            recording = touchstone.Recording(f"{folder}/a.tsrec")
+            self.assertEqual(recording.hands, 3)
+            for hand in (2, 0, 1):  # each from the beginning, in any order
+                kept, read = session.take(hand=hand), recording.read(hand=hand)
+                self.assertTrue(numpy.array_equal(kept.force, read.force))
+                self.assertTrue(numpy.array_equal(kept.hip, read.hip))
+                self.assertGreater(int((read.contacts > 0).sum()), 0)
+                self.assertEqual(len(recording.read(hand=hand)), 0)
+            with self.assertRaisesRegex(touchstone.ArgumentError, "there are 3"):
+                recording.read(hand=3)
 
     def test_ends_on_false_and_on_exceptions(self):
         with touchstone.Session() as session:
@@ -272,7 +291,9 @@ class Live(unittest.TestCase):
             session.move(0, rest + [0, 0.012, 0], speed=0.05)  # lifts the hand by 2 mm: 1.6 N
             session.run(60, lambda state: bool(state.force[1] < 1.59))
             self.assertGreater(session.pump().force[1], 1.5)
+            self.assertIsNone(session.material_number(0, "damping"))
             session.material(0, "stiffness", 400)
+            self.assertEqual(session.material_number(0, "stiffness"), 400)
             session.run(60, lambda state: bool(state.force[1] > 0.81))
             self.assertLess(session.pump().force[1], 0.85)
             session.halt()
