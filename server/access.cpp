@@ -44,6 +44,14 @@ bool isBelow(const fs::path& root, const fs::path& file) {
     return end == root.end() && rest != file.end();
 }
 
+/// A scheme and a host with its port, in the form that browsers send: never "null", which is everybody's.
+bool isOrigin(std::string_view origin) {
+    const size_t scheme = origin.starts_with("http://") ? 7 : origin.starts_with("https://") ? 8 : 0;
+    const std::string_view host = origin.substr(scheme);
+    return scheme > 0 && !host.empty() &&
+           host.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-:[]") == std::string_view::npos;
+}
+
 } // namespace
 
 std::string newToken() {
@@ -57,8 +65,13 @@ std::string newToken() {
     return text;
 }
 
-std::string writeToken(const std::string& token, int port) {
-    const fs::path file = runtimeFolder() / ("serve-" + std::to_string(port) + ".token");
+std::string tokenFileName(const ServeOptions& options) {
+    const bool usual = options.address == "127.0.0.1" || isAnyAddress(options.address);
+    return "serve-" + (usual ? "" : options.address + "-") + std::to_string(options.port) + ".token";
+}
+
+std::string writeToken(const std::string& token, const ServeOptions& options) {
+    const fs::path file = runtimeFolder() / tokenFileName(options);
     (void)unlink(file.c_str());
     const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     const bool written = descriptor >= 0 &&
@@ -78,7 +91,7 @@ bool sameToken(std::string_view given, std::string_view token) noexcept {
 }
 
 OwnNames ownNames(const ServeOptions& options) {
-    OwnNames own{options.names, options.port, !options.certificate.empty()};
+    OwnNames own{options.names, options.port, !options.certificate.empty(), options.origins};
     if (!isAnyAddress(options.address))
         own.hosts.push_back(options.address);
     if (isAnyAddress(options.address) || isLoopback(options.address)) {
@@ -111,6 +124,10 @@ std::string listenProblem(const ServeOptions& options) {
                "-L " +
                port + ":127.0.0.1:" + port + " THIS_MACHINE) or put a TLS proxy before it (stunnel)";
     }
+    for (const std::string& origin : options.origins)
+        if (!isOrigin(origin))
+            return "--origin " + origin +
+                   ": is no origin as browsers send it\n  remedy: http://localhost:8000";
     struct stat status {};
     if (!options.key.empty() && (stat(options.key.c_str(), &status) != 0 || (status.st_mode & 07) != 0))
         return "--key " + options.key + ": everybody may read it\n  remedy: chmod 600 " + options.key;
@@ -126,7 +143,8 @@ bool isOwnHost(std::string_view host, const OwnNames& names) {
 
 bool isOwnOrigin(std::string_view origin, const OwnNames& names) {
     const std::string_view scheme = names.tls ? "https://" : "http://";
-    return origin.empty() || (origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), names));
+    return origin.empty() || std::ranges::find(names.origins, origin) != names.origins.end() ||
+           (origin.starts_with(scheme) && isOwnHost(origin.substr(scheme.size()), names));
 }
 
 std::string fileBelow(const std::string& root, const std::string& name) {

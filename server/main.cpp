@@ -51,6 +51,10 @@ int main(int count, char** arguments) {
     app.add_option("--name", options.names,
                    "Name by which browsers call this server beside its address; may be repeated")
         ->type_name("HOST");
+    app.add_option(
+           "--origin", options.origins,
+           "Pages of another server may connect, too, with the token: http://localhost:8000; may be repeated")
+        ->type_name("ORIGIN");
     app.add_option("--device", options.device,
                    "What is held: stroke[:NAME] (a simulated hand), or as `run --device` [stroke]")
         ->type_name("DEVICE");

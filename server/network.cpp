@@ -83,8 +83,7 @@ void deliver() {
         for (auto& [wsi, peer] : network.peers) {
             if (message.client != 0 ? message.client != peer.number : !peer.trusted)
                 continue;
-            const bool stream = message.binary || message.bytes.starts_with(R"({"command")");
-            if (stream && peer.queue.size() >= kMostQueued)
+            if (message.stream && peer.queue.size() >= kMostQueued)
                 continue;
             if (peer.queue.size() >= kMostQueuedReplies)
                 peer.closing = true;
@@ -385,7 +384,7 @@ void serve(const ServeOptions& options, const std::string& web) {
     network.server = &server;
     listen(options);
     // Not before: another server that has the port keeps its file.
-    const std::string tokenFile = options.port != 0 ? writeToken(token, options.port) : std::string();
+    const std::string tokenFile = options.port != 0 ? writeToken(token, options) : std::string();
     printPlaces(options, token, tokenFile);
     const RawTerminal terminal;
     network.timer->set(monotonicNow());

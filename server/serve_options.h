@@ -9,11 +9,12 @@ namespace touchstone::server {
 struct ServeOptions {
     int port = 0; ///< 0 with a socket: none
     std::string address = "127.0.0.1";
-    std::vector<std::string> names; ///< of this machine, beside the address
-    std::string certificate, key;   ///< PEM files; empty: no TLS
-    std::string socket;             ///< path of a Unix socket; empty: none
-    std::string root = ".";         ///< scenes that clients name lie below it
-    std::string scene;              ///< opened at first; empty: none
+    std::vector<std::string> names;   ///< of this machine, beside the address
+    std::vector<std::string> origins; ///< of other servers' pages that may connect
+    std::string certificate, key;     ///< PEM files; empty: no TLS
+    std::string socket;               ///< path of a Unix socket; empty: none
+    std::string root = ".";           ///< scenes that clients name lie below it
+    std::string scene;                ///< opened at first; empty: none
     std::string device = "stroke";
     bool allowWrite = false;
     double rate = 1000.0;

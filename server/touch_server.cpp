@@ -1,13 +1,12 @@
 #include "server/touch_server.h"
 
 #include "server/access.h"
+#include "server/tables.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <functional>
-#include <stdexcept>
 #include <utility>
 
 namespace touchstone::server {
@@ -15,61 +14,12 @@ namespace touchstone::server {
 namespace {
 
 constexpr size_t kKept = 20'000, kTickBlock = 1000;
-constexpr size_t kMostBytes = size_t{16} << 20; // of a scene in a message
-
-/// A message that is refused; becomes the answer's `error`.
-struct Refusal : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-template <class T>
-T member(const nlohmann::json& message, const char* name) {
-    const auto found = message.find(name);
-    if (found == message.end())
-        throw Refusal(std::string("'") + name + "' is missing");
-    try {
-        return found->get<T>();
-    } catch (const nlohmann::json::exception&) {
-        throw Refusal(std::string("'") + name + "' is of the wrong type");
-    }
-}
-
-std::string decodedBase64(std::string_view text) {
-    std::string bytes;
-    uint32_t word = 0;
-    int bits = 0;
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (const char c : text.substr(0, text.find('='))) {
-        const size_t digit = kDigits.find(c);
-        if (digit == std::string_view::npos)
-            throw Refusal("'bytes' is not base64");
-        word = (word << 6) | static_cast<uint32_t>(digit);
-        if ((bits += 6) >= 8)
-            bytes.push_back(static_cast<char>(word >> (bits -= 8)));
-    }
-    return bytes;
-}
-
-nlohmann::json vectorOf(const double (&v)[3]) {
-    return {v[0], v[1], v[2]};
-}
-
-template <size_t Count>
-void numbersOf(const std::vector<double>& from, double (&to)[Count], const char* name) {
-    if (from.size() != Count)
-        throw Refusal(std::string("'") + name + "' is not " + (Count == 3 ? "three" : "four") + " numbers");
-    std::ranges::copy(from, to);
-}
-
-void append(std::string& bytes, const void* data, size_t size) {
-    bytes.append(static_cast<const char*>(data), size);
-}
 
 } // namespace
 
 TouchServer::TouchServer(const ServeOptions& options, std::string token)
     : options_(options), token_(std::move(token)), plan_(1.0 / options.rate),
-      changedMaterials_(Json::object()), changedSettings_(Json::object()), ticks_(kTickBlock) {
+      changedSettings_(Json::object()), ticks_(kTickBlock) {
     ts_session_options session = TS_STRUCT(ts_session_options);
     session.device = options_.device.c_str();
     session.rate = options_.rate;
@@ -78,8 +28,7 @@ TouchServer::TouchServer(const ServeOptions& options, std::string token)
     session.goal_power = options_.goalPower;
     ts::check(ts_session_create(&session, session_.out()));
     if (!options_.scene.empty())
-        beginLoading([file = options_.scene] { return std::make_unique<ts::Scene>(file, TS_FIT_WORKSPACE); },
-                     options_.scene, 0);
+        loading_.begin(options_.scene, 0);
 }
 
 TouchServer::Client* TouchServer::find(uint64_t client) {
@@ -94,6 +43,7 @@ void TouchServer::join(uint64_t client, bool trusted) {
 
 void TouchServer::leave(uint64_t client) {
     std::erase_if(clients_, [&](const Client& known) { return known.number == client; });
+    offline_.forget(client);
     if (driver_ == client)
         dismissDriver();
 }
@@ -119,7 +69,7 @@ bool TouchServer::mayRead(std::string_view token) const {
 }
 
 void TouchServer::tell(const Json& event, uint64_t client) {
-    outgoing_.push_back({client, false, event.dump(-1, ' ', false, Json::error_handler_t::replace)});
+    outgoing_.push_back({client, false, false, textOf(event)});
 }
 
 bool TouchServer::receive(uint64_t number, std::string_view text) {
@@ -160,7 +110,7 @@ void TouchServer::requireDriver(const Client& client) const {
         throw Refusal(driver_ == 0 ? "you do not drive: send \"drive\" first" : "another client drives");
 }
 
-TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, const Json& message) {
+Json TouchServer::answer(Client& client, const std::string& verb, const Json& message) {
     if (verb == "authenticate")
         return {{"protocol", kProtocol},
                 {"version", ts_version()},
@@ -171,24 +121,16 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
         return Json::object();
     if (verb == "subscribe")
         return subscribe(client, message);
-    if (verb == "settings") {
-        Json all = Json::array();
-        for (size_t i = 0; i < ts_setting_count(); ++i) {
-            ts_setting_info info = TS_STRUCT(ts_setting_info);
-            ts::check(ts_setting_get_info(i, &info));
-            all.push_back({{"name", info.name},
-                           {"unit", info.unit},
-                           {"meaning", info.meaning},
-                           {"allowed", info.allowed},
-                           {"initial", info.initial},
-                           {"value", changedSettings_.value(info.name, info.initial)}});
-        }
-        return {{"settings", all}};
-    }
+    if (verb == "settings")
+        return settingsTable(changedSettings_);
     if (verb == "materials")
-        return materials();
+        return materialsTable(session_.get(), scene_.get());
     if (verb == "objects")
-        return objects();
+        return objectsTable(scene_.get());
+    if (verb == "touch") {
+        offline_.begin(message, client.number, scene_ != nullptr ? scene_->get() : nullptr);
+        return Json::object();
+    }
     if (verb == "drive") {
         if (driver_ != 0 && driver_ != client.number)
             throw Refusal("another client drives");
@@ -205,7 +147,7 @@ TouchServer::Json TouchServer::answer(Client& client, const std::string& verb, c
     return drive(client, verb, message);
 }
 
-TouchServer::Json TouchServer::subscribe(Client& client, const Json& message) {
+Json TouchServer::subscribe(Client& client, const Json& message) {
     if (!message.contains("ticks") && !message.contains("states"))
         throw Refusal("'ticks' is missing");
     if (message.contains("states")) {
@@ -219,81 +161,31 @@ TouchServer::Json TouchServer::subscribe(Client& client, const Json& message) {
     return Json::object();
 }
 
-/// The numbers that may change, and what the materials of the scene have of them; null: not stated.
-TouchServer::Json TouchServer::materials() const {
-    Json numbers = Json::array(), all = Json::array();
-    for (size_t i = 0; i < ts_material_number_count(); ++i) {
-        ts_number_info info = TS_STRUCT(ts_number_info);
-        ts::check(ts_material_number_get_info(i, &info));
-        numbers.push_back({{"name", info.name},
-                           {"label", info.label},
-                           {"unit", info.unit},
-                           {"meaning", info.meaning},
-                           {"least", info.least},
-                           {"most", info.most},
-                           {"low", info.low},
-                           {"high", info.high},
-                           {"logarithmic", info.logarithmic != 0}});
-    }
-    for (uint64_t m = 0, count = scene_ != nullptr ? scene_->info().materials : 0; m < count; ++m) {
-        Json values = Json::object();
-        for (const Json& number : numbers) {
-            const auto name = number["name"].get<std::string>();
-            double value = 0.0;
-            ts::check(ts_scene_material_number(scene_->get(), m, name.c_str(), &value));
-            values[name] = std::isnan(value) ? Json() : Json(value);
-        }
-        if (const std::string key = std::to_string(m); changedMaterials_.contains(key))
-            values.update(changedMaterials_[key]);
-        all.push_back({{"name", ts::text([&](char* text, size_t room, size_t* needed) {
-                            return ts_scene_material_name(scene_->get(), m, text, room, needed);
-                        })},
-                       {"values", values}});
-    }
-    return {{"numbers", numbers}, {"materials", all}};
-}
-
 void TouchServer::setMaterial(const Json& message) {
-    const auto number = member<int64_t>(message, "material");
-    if (number < 0)
-        throw Refusal("'material' is negative");
-    const auto material = static_cast<uint64_t>(number);
+    const uint64_t material = numberIn(message, "material");
     const auto name = member<std::string>(message, "name");
     const bool asInFile = message.contains("value") && message["value"].is_null();
-    double value = asInFile ? std::nan("") : member<double>(message, "value");
+    const double value = asInFile ? std::nan("") : member<double>(message, "value");
+    const auto all = [&] {
+        return scene_ != nullptr ? numberOfMaterials(session_.get(), *scene_, name) : Json::array();
+    };
+    const Json before = all();
     ts::check(ts_session_material(session_.get(), material, name.c_str(), value));
-    if (asInFile)
-        ts::check(ts_scene_material_number(scene_->get(), material, name.c_str(), &value));
-    const Json now = std::isnan(value) ? Json() : Json(value);
-    changedMaterials_[std::to_string(material)][name] = now;
-    tell({{"event", "material"}, {"material", material}, {"name", name}, {"value", now}});
-}
-
-TouchServer::Json TouchServer::objects() const {
-    Json all = Json::array();
-    for (uint64_t i = 0, count = scene_ != nullptr ? scene_->info().objects : 0; i < count; ++i) {
-        ts_object_info info = TS_STRUCT(ts_object_info);
-        ts::check(ts_scene_object(scene_->get(), i, &info));
-        all.push_back({{"centre", vectorOf(info.centre)},
-                       {"first_triangle", info.first_triangle},
-                       {"triangles", info.triangles},
-                       {"movable", info.movable != 0}});
-    }
-    return {{"objects", all}};
+    const Json now = all();
+    for (size_t m = 0; m < now.size(); ++m) // those that are one with it in the file have changed, too
+        if (m == material || now[m] != before[m])
+            tell({{"event", "material"}, {"material", m}, {"name", name}, {"value", now[m]}});
 }
 
 /// A goal of an object's pose; it goes there no faster than the message and the library allow.
 void TouchServer::moveObject(const Json& message) {
-    const auto number = member<int64_t>(message, "object");
-    if (number < 0)
-        throw Refusal("'object' is negative");
-    const auto object = static_cast<uint64_t>(number);
+    const uint64_t object = numberIn(message, "object");
     ts_pose pose = TS_STRUCT(ts_pose);
     numbersOf(member<std::vector<double>>(message, "position"), pose.position, "position");
     if (message.contains("orientation"))
         numbersOf(member<std::vector<double>>(message, "orientation"), pose.orientation, "orientation");
-    pose.speed = message.contains("speed") ? member<double>(message, "speed") : 0.0;
-    pose.turn = message.contains("turn") ? member<double>(message, "turn") : 0.0;
+    pose.speed = memberOr(message, "speed", 0.0);
+    pose.turn = memberOr(message, "turn", 0.0);
     ts::check(ts_session_move(session_.get(), object, &pose));
     moved_.insert(object);
 }
@@ -304,7 +196,7 @@ void TouchServer::haltObjects() {
 }
 
 /// Where the objects are that were moved.
-TouchServer::Json TouchServer::movedPoses() const {
+Json TouchServer::movedPoses() const {
     Json all = Json::array();
     for (const uint64_t object : moved_) {
         ts_pose pose = TS_STRUCT(ts_pose);
@@ -325,8 +217,8 @@ void TouchServer::hearGoal(const Json& message) {
     goal.touching = member<bool>(message, "touching") ? 1 : 0;
     if (goal.touching != 0) {
         numbersOf(member<std::vector<double>>(message, "proxy"), goal.proxy, "proxy");
-        goal.stiffness = message.contains("stiffness") ? member<double>(message, "stiffness") : 0.0;
-        goal.damping = message.contains("damping") ? member<double>(message, "damping") : 0.0;
+        goal.stiffness = memberOr(message, "stiffness", 0.0);
+        goal.damping = memberOr(message, "damping", 0.0);
         if (message.contains("planes")) {
             const auto planes = member<std::vector<std::vector<double>>>(message, "planes");
             if (planes.size() > 3)
@@ -338,7 +230,7 @@ void TouchServer::hearGoal(const Json& message) {
     ts::check(ts_session_goal(session_.get(), &goal));
 }
 
-TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, const Json& message) {
+Json TouchServer::drive(Client& client, const std::string& verb, const Json& message) {
     requireDriver(client);
     if (verb == "release") {
         dismissDriver();
@@ -362,7 +254,8 @@ TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, co
     } else if (verb == "material") {
         setMaterial(message);
     } else if (verb == "load") {
-        return load(message, client.number);
+        loading_.begin(message, options_.root, client.number);
+        return {{"loading", true}};
     } else if (verb == "record") {
         if (!options_.allowWrite)
             throw Refusal("the server was started without --allow-write");
@@ -377,72 +270,44 @@ TouchServer::Json TouchServer::drive(Client& client, const std::string& verb, co
     return Json::object();
 }
 
-TouchServer::Json TouchServer::load(const Json& message, uint64_t client) {
-    if (loading_.valid())
-        throw Refusal("a scene is being loaded");
-    if (message.contains("bytes")) {
-        auto bytes = std::make_shared<std::string>(decodedBase64(member<std::string>(message, "bytes")));
-        if (bytes->size() > kMostBytes)
-            throw Refusal("'bytes' holds more than 16 MiB");
-        beginLoading(
-            [bytes] { return std::make_unique<ts::Scene>(ts::Scene::fromMemory(*bytes, TS_FIT_WORKSPACE)); },
-            "", client);
-        return {{"loading", true}};
-    }
-    const std::string file = fileBelow(options_.root, member<std::string>(message, "scene"));
-    if (file.empty())
-        throw Refusal("'scene' names no file below the root");
-    beginLoading([file] { return std::make_unique<ts::Scene>(file, TS_FIT_WORKSPACE); }, file, client);
-    return {{"loading", true}};
-}
-
-void TouchServer::beginLoading(std::function<std::unique_ptr<ts::Scene>()> make, std::string file,
-                               uint64_t client) {
-    loadingFile_ = std::move(file);
-    loader_ = client;
-    loading_ = std::async(std::launch::async, [make = std::move(make)]() -> Loaded {
-        try {
-            Loaded loaded{make(), {}, {}};
-            loaded.triangles = loaded.scene->triangles();
-            return loaded;
-        } catch (const ts::Error& error) {
-            return {nullptr, error.what(), {}};
-        }
-    });
-}
-
 void TouchServer::finishLoading() {
-    if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    std::optional<SceneLoading::Loaded> loaded = loading_.take();
+    if (!loaded)
         return;
-    Loaded loaded = loading_.get();
+    const uint64_t client = loaded->client;
     try {
-        if (loaded.scene == nullptr)
-            throw ts::Error(TS_INPUT, loaded.error);
-        ts::check(ts_session_stop(session_.get())); // a simulated hand strokes what is there when it starts
-        ts::check(ts_session_touch(session_.get(), loaded.scene->get()));
-        ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
-        ts::check(ts_session_start(session_.get()));
-        touching_ = true;
-        if (rendered_)
-            render(true);
-        sceneFile_ = loadingFile_;
-        triangles_ = loaded.triangles;
-        const ts_scene_info info = loaded.scene->info();
-        scene_ = std::move(loaded.scene);
-        changedMaterials_ = Json::object();
-        moved_.clear();
-        tell({{"event", "scene"},
-              {"file", sceneFile_},
-              {"triangles", info.triangles},
-              {"low", vectorOf(info.low)},
-              {"high", vectorOf(info.high)}});
+        if (loaded->scene == nullptr)
+            throw ts::Error(TS_INPUT, loaded->error);
+        touchNow(std::move(*loaded));
     } catch (const ts::Error& error) {
-        tell({{"event", "error"}, {"error", error.what()}}, loader_);
+        tell({{"event", "error"}, {"error", error.what()}}, client);
     }
+}
+
+/// Throws ts::Error.
+void TouchServer::touchNow(SceneLoading::Loaded loaded) {
+    ts::check(ts_session_stop(session_.get())); // a simulated hand strokes what is there when it starts
+    ts::check(ts_session_touch(session_.get(), loaded.scene->get()));
+    ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
+    ts::check(ts_session_start(session_.get()));
+    touching_ = true;
+    if (rendered_)
+        render(true);
+    sceneFile_ = std::move(loaded.file);
+    triangles_ = std::move(loaded.triangles);
+    scene_ = std::move(loaded.scene);
+    moved_.clear();
+    const ts_scene_info info = scene_->info();
+    tell({{"event", "scene"},
+          {"file", sceneFile_},
+          {"triangles", info.triangles},
+          {"low", vectorOf(info.low)},
+          {"high", vectorOf(info.high)}});
 }
 
 void TouchServer::pump() {
     finishLoading();
+    sendTouched();
     if (!touching_)
         return;
     ts_state state = TS_STRUCT(ts_state);
@@ -471,35 +336,18 @@ double TouchServer::nextPump() {
 
 /// To each client as often as it has asked for.
 void TouchServer::sendState(const ts_state& state) {
-    Json event{{"event", "state"},
-               {"tick", state.tick},
-               {"time", state.time},
-               {"hip", vectorOf(state.hip)},
-               {"proxy", vectorOf(state.proxy)},
-               {"normal", vectorOf(state.normal)},
-               {"force", vectorOf(state.force)},
-               {"command", vectorOf(state.command)},
-               {"penetration", state.penetration},
-               {"contacts", state.contacts},
-               {"friction", state.friction},
-               {"flags", state.flags},
-               {"ticks", state.ticks},
-               {"missed", state.missed},
-               {"started", state.started},
-               {"wake_us", 1e-3 * static_cast<double>(state.wake_ns)},
-               {"step_us", 1e-3 * static_cast<double>(state.step_ns)},
-               {"rendered", state.rendered != 0},
-               {"force_on", forceOn_},
-               {"driver", driver_ != 0 ? Json(driver_) : Json()}};
+    Json event = stateEvent(state);
+    event["force_on"] = forceOn_;
+    event["driver"] = driver_ != 0 ? Json(driver_) : Json();
     if (!moved_.empty())
         event["moved"] = movedPoses();
-    const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string text = textOf(event);
     for (Client& client : clients_) {
         constexpr double kSlack = 0.1; // of a period: timers are late by some of one
         if (!client.known || client.sinceState * client.stateRate < 1.0 - kSlack)
             continue;
         client.sinceState = 0.0;
-        outgoing_.push_back({client.number, false, text});
+        outgoing_.push_back({client.number, false, true, text});
     }
 }
 
@@ -510,22 +358,28 @@ void TouchServer::sendTicks() {
         ts::check(ts_session_take(session_.get(), &arrays, &count));
         if (!wanted || count == 0)
             continue;
-        // "TSTK", the protocol, the ticks, 0; then of each tick: time, hip, proxy, force, command (double),
-        // contacts, flags (uint32).
-        std::string bytes = "TSTK";
-        const uint32_t head[3]{kProtocol, static_cast<uint32_t>(count), 0};
-        append(bytes, head, sizeof head);
-        for (size_t i = 0; i < count; ++i) {
-            append(bytes, &ticks_.time[i], sizeof(double));
-            for (const auto* rows : {&ticks_.hip, &ticks_.proxy, &ticks_.force, &ticks_.command})
-                append(bytes, (*rows)[i].data(), sizeof(ts::Vector));
-            append(bytes, &ticks_.contacts[i], sizeof(uint32_t));
-            append(bytes, &ticks_.flags[i], sizeof(uint32_t));
-        }
+        const std::string bytes = ticksFrame(ticks_, 0, count, 0);
         for (const Client& client : clients_)
             if (client.ticks)
-                outgoing_.push_back({client.number, true, bytes});
+                outgoing_.push_back({client.number, true, true, bytes});
     }
+}
+
+/// The ticks of a client's path, and then that they are whole.
+void TouchServer::sendTouched() {
+    const std::optional<OfflineTouch::Made> made = offline_.take();
+    if (!made || find(made->client) == nullptr)
+        return;
+    if (!made->error.empty()) {
+        tell({{"event", "error"}, {"error", made->error}, {"id", made->id}}, made->client);
+        return;
+    }
+    constexpr size_t kInAFrame = 10'000;
+    const size_t count = made->ticks.time.size();
+    for (size_t first = 0; first < count; first += kInAFrame)
+        outgoing_.push_back({made->client, true, false,
+                             ticksFrame(made->ticks, first, std::min(kInAFrame, count - first), made->id)});
+    tell({{"event", "touched"}, {"id", made->id}, {"ticks", count}}, made->client);
 }
 
 void TouchServer::takeBack() {

@@ -2,16 +2,16 @@
 // What clients may ask for, whatever carries their messages. docs/server.md is the protocol; change both
 // together.
 
+#include "server/messages.h"
+#include "server/offline_touch.h"
 #include "server/pump_timer.h"
+#include "server/scene_loading.h"
 #include "server/serve_options.h"
+#include "server/ticks_sent.h"
 #include "touchstone/touchstone.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <set>
@@ -21,12 +21,11 @@
 
 namespace touchstone::server {
 
-inline constexpr int kProtocol = 1;
-
 /// A message to a client, or to all.
 struct Outgoing {
     uint64_t client = 0; ///< 0: all that are authenticated
     bool binary = false;
+    bool stream = false; ///< a newer one replaces it: who reads too slowly may lose it
     std::string bytes;
 };
 
@@ -53,7 +52,6 @@ class TouchServer {
     [[nodiscard]] bool mayRead(std::string_view token) const;
 
   private:
-    using Json = nlohmann::json;
     struct Client {
         uint64_t number = 0;
         bool known = false, ticks = false;
@@ -61,24 +59,16 @@ class TouchServer {
         double sinceState = 0.0;         ///< s
     };
     static constexpr double kUsualStates = 60.0;
-    struct Loaded {
-        std::unique_ptr<ts::Scene> scene;
-        std::string error;
-        std::vector<float> triangles;
-    };
 
     [[nodiscard]] Client* find(uint64_t client);
     [[nodiscard]] Json answer(Client& client, const std::string& verb, const Json& message);
-    [[nodiscard]] Json load(const Json& message, uint64_t client);
-    void beginLoading(std::function<std::unique_ptr<ts::Scene>()> make, std::string file, uint64_t client);
     void finishLoading();
+    void touchNow(SceneLoading::Loaded loaded);
     void requireDriver(const Client& client) const;
     [[nodiscard]] Json drive(Client& client, const std::string& verb, const Json& message);
     [[nodiscard]] Json subscribe(Client& client, const Json& message);
-    [[nodiscard]] Json materials() const;
     void setMaterial(const Json& message);
     void hearGoal(const Json& message);
-    [[nodiscard]] Json objects() const;
     void moveObject(const Json& message);
     void haltObjects();
     [[nodiscard]] Json movedPoses() const;
@@ -86,6 +76,7 @@ class TouchServer {
     void dismissDriver();
     void tell(const Json& event, uint64_t client = 0);
     void sendTicks();
+    void sendTouched();
     void sendState(const ts_state& state);
 
     ServeOptions options_;
@@ -97,13 +88,13 @@ class TouchServer {
     std::chrono::steady_clock::time_point pumped_{};
     PumpPlan plan_;
     ReadTick read_; ///< the newest
-    std::future<Loaded> loading_;
+    SceneLoading loading_;
     std::unique_ptr<ts::Scene> scene_; ///< that is touched
-    Json changedMaterials_;            ///< what clients have changed of it: {"0": {"stiffness": 900}}
     std::set<uint64_t> moved_;         ///< objects of it that clients have moved
     Json changedSettings_;             ///< by name, since the start
-    std::string loadingFile_, sceneFile_;
-    uint64_t loader_ = 0, lastTick_ = ~uint64_t{0};
+    OfflineTouch offline_;
+    std::string sceneFile_;
+    uint64_t lastTick_ = ~uint64_t{0};
     std::vector<Outgoing> outgoing_;
     ts::Ticks ticks_;
     std::vector<float> triangles_;

@@ -138,7 +138,7 @@ class Caller {
             check(ts_session_render(any<ts_session>(), static_cast<int>(random_() % 2)));
             break;
         case 21:
-            check(ts_session_material(any<ts_session>(), random_() % 3, materialWord(), number()));
+            material();
             break;
         case 22: {
             ts_state state = TS_STRUCT(ts_state);
@@ -285,6 +285,12 @@ class Caller {
         if (random_() % 4 == 0)
             check(ts_session_halt(session));
     }
+    void material() {
+        const auto session = any<ts_session>();
+        check(ts_session_material(session, random_() % 3, materialWord(), number()));
+        double value = 0.0;
+        check(ts_session_material_number(session, random_() % 3, materialWord(), pick(&value)));
+    }
     /// What a scene knows of itself.
     void ask() {
         const auto scene = any<ts_scene>();
@@ -374,7 +380,10 @@ class Caller {
         size_t count = 0;
         check(ts_session_take(any<ts_session>(), pick(&ticks), pick(&count)));
         check(ts_session_take_hand(any<ts_session>(), random_() % 5, pick(&ticks), pick(&count)));
-        check(ts_recording_read(any<ts_recording>(), pick(&ticks), &count));
+        const auto recording = any<ts_recording>();
+        check(ts_recording_read(recording, pick(&ticks), &count));
+        check(ts_recording_read_hand(recording, random_() % 5, pick(&ticks), pick(&count)));
+        check(ts_recording_hands(recording, pick(&count)));
     }
     void close() {
         switch (random_() % 4) {

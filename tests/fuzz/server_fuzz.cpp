@@ -57,7 +57,7 @@ class Fuzz {
         read(text);
     }
 
-    uint64_t sent = 0, answered = 0, refused = 0, states = 0, rendered = 0;
+    uint64_t sent = 0, answered = 0, refused = 0, states = 0, rendered = 0, touched = 0;
 
   private:
     size_t below(size_t count) { return count > 0 ? random_() % count : 0; }
@@ -94,6 +94,7 @@ class Fuzz {
                 if (json["ok"] == false && json["error"].get<std::string>().empty())
                     fail("refused without a word", cause);
             }
+            touched += json.value("event", "") == "touched" ? 1 : 0;
             if (json.value("event", "") != "state")
                 continue;
             ++states;
@@ -159,7 +160,7 @@ class Fuzz {
                                            "",        ".",         "none.glb"};
         static const char* const kPlain[]{"ping",    "settings",     "materials", "drive",
                                           "release", "authenticate", "objects",   "halt"};
-        switch (below(below(50) == 0 ? 13 : 11)) {
+        switch (below(below(50) == 0 ? 14 : 11)) {
         case 0:
             return {{"do", oneOf(kPlain)}, {"token", kToken}};
         case 1:
@@ -197,10 +198,27 @@ class Fuzz {
         case 11:
             return below(4) == 0 ? Json{{"do", "load"}, {"bytes", std::string(below(60), 'A')}}
                                  : Json{{"do", "load"}, {"scene", oneOf(kScenes)}};
+        case 12:
+            return anyTouch();
         default:
             return {{"do", "record"},
                     {"file", below(2) == 0 ? "" : "r" + std::to_string(below(1000)) + ".tsrec"}};
         }
+    }
+
+    /// A path that is touched offline.
+    Json anyTouch() {
+        Json message{{"do", "touch"}};
+        if (below(4) == 0)
+            message["stroke"] = below(2) == 0 ? "circle" : "none such";
+        if (below(4) != 0)
+            for (size_t i = 0, count = below(200); i < count; ++i)
+                message["positions"].push_back(anyVector());
+        if (below(3) == 0)
+            message["rate"] = anyNumber() * 1e5;
+        if (below(3) == 0)
+            message["settings"] = Json{{"friction", below(2) == 0 ? "off" : "nothing"}};
+        return message;
     }
 
     std::string anyText() {
@@ -272,11 +290,12 @@ int main(int count, char** arguments) {
                 early = residentPages();
         }
         std::printf(
-            "%llu messages, %llu answers, %llu of them refusals, %llu states, %llu rendered by a client; "
-            "memory %+ld MB in the second half\n",
+            "%llu messages, %llu answers, %llu of them refusals, %llu states, %llu rendered by a client, "
+            "%llu paths touched offline; memory %+ld MB in the second half\n",
             static_cast<unsigned long long>(fuzz.sent), static_cast<unsigned long long>(fuzz.answered),
             static_cast<unsigned long long>(fuzz.refused), static_cast<unsigned long long>(fuzz.states),
-            static_cast<unsigned long long>(fuzz.rendered), (residentPages() - early) * 4096 / 1'000'000);
+            static_cast<unsigned long long>(fuzz.rendered), static_cast<unsigned long long>(fuzz.touched),
+            (residentPages() - early) * 4096 / 1'000'000);
         const bool lively =
             fuzz.answered > 0 && fuzz.refused > 0 && fuzz.refused < fuzz.answered && fuzz.states > 0;
         status = lively ? 0 : 1;

@@ -1,16 +1,22 @@
-"""Strangers' projects against an installed prefix: ten lines of CMake, one file by pkg-config, ten lines of Python; each prints the force
-of `touchstone touch` to the last bit. Arguments: BUILD SCENES CMAKE; with --installed in place of BUILD against the installed packages
-(tools/debian --packages)."""
+"""Strangers' projects against an installed prefix: ten lines of CMake, one file by pkg-config, ten lines of Python, a page in a browser; each
+prints the force of `touchstone touch` to the last bit. Arguments: BUILD SCENES CMAKE [BROWSER]; with --installed in place of BUILD against
+the installed packages (tools/debian --packages)."""
 
+import functools
 import gzip
+import http.server
 import os
 import pathlib
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 BUILD, SCENES, CMAKE = sys.argv[1:4]
+BROWSER = sys.argv[4] if len(sys.argv) > 4 else ""
+HERE = pathlib.Path(__file__).resolve().parent
 
 PROJECT = """cmake_minimum_required(VERSION 3.18)
 project(stranger CXX)
@@ -41,6 +47,20 @@ def run(*arguments, env=None):
     return done.stdout
 
 
+STATUS = "document.getElementById('status').textContent"
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
 def numbers(text):
     return [tuple(map(float.fromhex, line.split())) for line in text.splitlines()]
 
@@ -58,12 +78,18 @@ class Installed(unittest.TestCase):
             (at / "first").rename(at / "prefix")  # an installation may be moved
             cls.prefix = at / "prefix"
         cls.model = str(cls.prefix / "share/touchstone/scenes/doughnut.glb")
-        run(str(cls.prefix / "bin/touchstone"), "touch", cls.model, "--stroke", "circle", "--out", str(at / "ticks.csv"))
+        cls.force = cls.touched(at)
+        assert max(max(map(abs, force)) for force in cls.force) > 0.1
+        cls.fitted = cls.touched(at, "--fit", "workspace")  # as the server has it
+        cls.libraries = next(path for where in ("lib", "lib/*") for path in cls.prefix.glob(f"{where}/libtouchstone.so")).parent
+
+    @classmethod
+    def touched(cls, at, *options):
+        """The force of each tick, by the program."""
+        run(str(cls.prefix / "bin/touchstone"), "touch", cls.model, "--stroke", "circle", "--out", str(at / "ticks.csv"), *options)
         rows = [line.split(",") for line in (at / "ticks.csv").read_text().splitlines()]
         columns = [rows[0].index(f"force_{axis}") for axis in "xyz"]
-        cls.force = [tuple(float(row[i]) for i in columns) for row in rows[1:]]
-        assert max(max(map(abs, force)) for force in cls.force) > 0.1
-        cls.libraries = next(path for where in ("lib", "lib/*") for path in cls.prefix.glob(f"{where}/libtouchstone.so")).parent
+        return [tuple(float(row[i]) for i in columns) for row in rows[1:]]
 
     @classmethod
     def tearDownClass(cls):
@@ -92,6 +118,37 @@ class Installed(unittest.TestCase):
     def test_a_script_of_python(self):
         out = run(sys.executable, "-B", "-c", SCRIPT, self.model, env={"PYTHONPATH": str(self.prefix / "lib/python3/dist-packages")})
         self.assertEqual(numbers(out), self.force)
+
+    @unittest.skipUnless(BROWSER, "there is no Chromium")
+    def test_a_page_in_a_browser(self):
+        for path in (self.prefix / "lib/python3/dist-packages", HERE, HERE.parents[1] / "support" if BUILD != "--installed" else HERE):
+            sys.path.insert(0, str(path))
+        from browser import open_page, until  # over the installed module's client
+        pages = self.prefix / "share/doc/libtouchstone-dev/examples/web"
+        handler = functools.partial(Quiet, directory=str(pages))
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as host, tempfile.TemporaryDirectory() as folder:
+            threading.Thread(target=host.serve_forever, daemon=True).start()
+            origin = f"http://127.0.0.1:{host.server_port}"
+            for allowed in (True, False):
+                server = subprocess.Popen([str(self.prefix / "bin/touchstone"), "serve", self.model, "--port", str(free_port()),
+                                           *(["--origin", origin] if allowed else [])], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+                address, token = server.stdout.readline().strip().removeprefix("http://").split("/#")
+                browser, page = open_page(BROWSER, f"{origin}/force.html#{address},{token}", f"{folder}/{allowed}")
+                try:
+                    if allowed:
+                        status = until(lambda: page.run(f"{STATUS} !== 'connecting' && {STATUS}"))
+                        self.assertEqual(status, f"{len(self.fitted)} ticks")
+                        printed = page.run("document.getElementById('force').textContent")
+                        self.assertEqual([tuple(map(float, line.split())) for line in printed.splitlines()], self.fitted)
+                    else:  # nobody's page drives a device
+                        self.assertEqual(until(lambda: page.run(f"{STATUS} === 'closed' && {STATUS}")), "closed")
+                finally:
+                    page.close()
+                    for process in (browser, server):
+                        process.terminate()
+                        process.wait()
+                    server.stdout.close()
+            host.shutdown()
 
     def test_what_it_needs_is_found(self):
         program = str(self.prefix / "bin/touchstone")

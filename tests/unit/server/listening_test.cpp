@@ -59,6 +59,30 @@ TEST(Listening, NamesAreOwn) {
     EXPECT_TRUE(isOwnHost("lab.example", ownNames(lab))); // browsers leave the usual port out
 }
 
+TEST(Listening, OtherPagesNeedTheirOrigin) {
+    ServeOptions options = at("127.0.0.1");
+    options.origins = {"http://localhost:8000", "https://lab.example"};
+    EXPECT_EQ(listenProblem(options), "");
+    const OwnNames names = ownNames(options);
+    for (const char* origin : {"http://localhost:8000", "https://lab.example", "http://127.0.0.1:8790", ""})
+        EXPECT_TRUE(isOwnOrigin(origin, names)) << origin;
+    for (const char* origin : {"http://localhost:800", "http://localhost:80000", "https://localhost:8000",
+                               "http://lab.example", "https://lab.example.evil.example", "null"})
+        EXPECT_FALSE(isOwnOrigin(origin, names)) << origin;
+    EXPECT_FALSE(isOwnHost("localhost:8000", names)) << "a page's place is no name of the server's";
+    for (const char* wrong : {"", "null", "*", "localhost:8000", "http://", "http://a/", "http://A",
+                              "ftp://a", "http://a b", "http://*.example"}) {
+        options.origins = {wrong};
+        EXPECT_NE(listenProblem(options).find("no origin"), std::string::npos) << wrong;
+    }
+}
+
+TEST(Listening, EachAddressHasItsToken) {
+    EXPECT_EQ(tokenFileName(at("127.0.0.1")), "serve-8790.token");
+    EXPECT_EQ(tokenFileName(at("0.0.0.0")), "serve-8790.token"); // has the port of 127.0.0.1
+    EXPECT_EQ(tokenFileName(at("127.0.0.2")), "serve-127.0.0.2-8790.token");
+}
+
 /// Reads after ticks that end `took` s after their deadlines, for `seconds`; the age of what it finds.
 double worstAge(PumpPlan& plan, double tick, double took, double period, double seconds) {
     const double started = 100.0;

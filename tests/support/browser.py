@@ -1,0 +1,71 @@
+"""A headless Chromium for tests, led by its DevTools."""
+
+import json
+import socket
+import subprocess
+import time
+import urllib.request
+
+from touchstone.client import Client
+
+OPTIONS = ("--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+           "--no-first-run", "--disable-dev-shm-usage")
+
+
+class Browser(Client):
+    """The DevTools of a page, over the client's own frames."""
+
+    def __init__(self, port, path):
+        self._path = path
+        super().__init__(port, timeout=30.0)
+
+    def _open(self, host, token):
+        self._socket.sendall((f"GET {self._path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                              "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+        self._buffer = b""
+        while b"\r\n\r\n" not in self._buffer:
+            self._more()
+        self._buffer = self._buffer.split(b"\r\n\r\n", 1)[1]
+
+    def run(self, script):
+        """The value of an expression in the page."""
+        self._asked += 1
+        self.send(json.dumps({"id": self._asked, "method": "Runtime.evaluate", "params": {"expression": script, "returnByValue": True}}).encode())
+        while True:
+            message = self.receive()
+            if message.get("id") == self._asked:
+                return message["result"]["result"].get("value")
+
+
+def until(what, seconds=60):
+    """The first value that is not false."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            value = what()
+        except (OSError, ValueError):
+            value = None
+        if value:
+            return value
+        time.sleep(0.1)
+    raise AssertionError("waited in vain")
+
+
+def open_page(program, url, profile):
+    """Chromium with that page: its process, and a Browser. The caller ends both."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    process = subprocess.Popen([program, *OPTIONS, f"--user-data-dir={profile}", f"--remote-debugging-port={port}", url],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def target():
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=5) as answer:
+            return [page["webSocketDebuggerUrl"] for page in json.load(answer) if page["type"] == "page" and page["url"].startswith(url.split("#")[0])]
+
+    try:
+        return process, Browser(port, "/" + until(target)[0].split("/", 3)[3])
+    except BaseException:
+        process.terminate()
+        process.wait()
+        raise
