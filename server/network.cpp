@@ -349,6 +349,9 @@ void listen(const ServeOptions& options) {
         host = listenTo(options, info);
     if (!options.socket.empty())
         host = listenTo(options.socket, info);
+    // From now on clients cause its errors: a line for each would fill a log, or a pipe that nobody reads, and
+    // then the network's thread would wait for it.
+    lws_set_log_level(0, nullptr);
     network.timer.emplace();
     lws_sock_file_fd_type timer;
     timer.filefd = dup(network.timer->descriptor()); // lws closes what it was given

@@ -238,6 +238,22 @@ class Abuse(Server):
         self.assertLess(grown * 4096, 64 << 20)
         self.touching(self.client(self.path))
 
+    def test_broken_requests_fill_no_log(self):
+        """The server's errors go into a pipe of 64 KiB that is read at the end: one that is full would stop the server."""
+        watcher = self.client(self.path)
+        self.touching(watcher)
+        request = f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nX: {'x' * 6000}\r\n\r\n".encode()
+        for _ in range(1500):
+            with socket.create_connection(("127.0.0.1", self.port), 60) as connection:
+                try:
+                    connection.sendall(request)
+                    connection.recv(100)
+                except ConnectionError:
+                    pass
+        before = watcher.state()["ticks"]
+        self.touching(self.client(self.path))
+        self.assertGreater(watcher.state()["ticks"], before)
+
     def test_streams_every_tick(self):
         client = self.client()
         self.touching(client)
