@@ -349,8 +349,7 @@ void listen(const ServeOptions& options) {
         host = listenTo(options, info);
     if (!options.socket.empty())
         host = listenTo(options.socket, info);
-    // From now on clients cause its errors: a line for each would fill a log, or a pipe that nobody reads, and
-    // then the network's thread would wait for it.
+    // From now on clients cause its errors; a line for each would fill a log, or stop this thread at a pipe.
     lws_set_log_level(0, nullptr);
     network.timer.emplace();
     lws_sock_file_fd_type timer;
