@@ -4,10 +4,12 @@
 #include "engine/core/progress.h"
 #include "engine/process/helper_program.h"
 #include "engine/process/process_answer.h"
+#include "engine/program/spirv_reader.h"
 
 #include <signal.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <string_view>
@@ -18,8 +20,9 @@ namespace touchstone {
 
 namespace {
 
-// What the compiler calls the user's source and the declarations made of it.
-constexpr std::string_view kSource = "source", kParameters = "parameters", kEntryFile = "entry.glsl";
+// What the compiler calls the declarations made of the user's source, and what runs it.
+using program::kSourceFile;
+constexpr std::string_view kParameters = "parameters", kEntryFile = "entry.glsl";
 constexpr uint64_t kMaxSpirvBytes = uint64_t{4} << 20;
 constexpr const char* kShorten = "shorten the program; look for what the compiler has to expand";
 
@@ -42,6 +45,36 @@ std::string remedyFor(std::string_view message) {
     return "correct the line: a program is GLSL 4.50 (docs/programs.md)";
 }
 
+/// "f(f1; calling g(f1;" of a message about recursion, which has no line: that where the first of them
+/// begins.
+[[noreturn]] void failOfRecursion(const ProgramSource& source, std::string_view log) {
+    const auto nameBefore = [&](size_t end) {
+        const size_t begin = log.find_last_of(" \t\n", end);
+        return std::string(log.substr(begin + 1, end - begin - 1));
+    };
+    constexpr std::string_view kCalling = " calling ";
+    const size_t calling = log.find(kCalling);
+    const size_t first = calling == std::string_view::npos ? calling : log.rfind('(', calling);
+    const size_t second = calling == std::string_view::npos ? calling : log.find('(', calling);
+    if (first == std::string_view::npos || second == std::string_view::npos)
+        throw Error(source.name, "", "calls a function from itself", remedyFor("recursion"));
+    const std::string caller = nameBefore(first), callee = nameBefore(second);
+    const auto isName = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    std::string place;
+    for (size_t at = source.text.find(caller); at != std::string::npos && place.empty();
+         at = source.text.find(caller, at + 1)) {
+        const size_t end = source.text.find_first_not_of(" \t", at + caller.size());
+        if ((at == 0 || !isName(source.text[at - 1])) && end != std::string::npos && source.text[end] == '(')
+            place =
+                "line " +
+                std::to_string(1 + std::count(source.text.begin(),
+                                              source.text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    }
+    throw Error(source.name, place,
+                "'" + caller + "' calls '" + callee + "', which comes back to it: recursion",
+                remedyFor("recursion"));
+}
+
 /// The first message of the compiler: "ERROR: FILE:LINE: TEXT", or without a place.
 [[noreturn]] void failOf(const ProgramSource& source, std::string_view log) {
     constexpr std::string_view kError = "ERROR: ";
@@ -49,6 +82,8 @@ std::string remedyFor(std::string_view message) {
     if (start == std::string_view::npos)
         throw Error(source.name, "", "cannot be compiled: " + printable(log), remedyFor(log));
     log.remove_prefix(start + kError.size());
+    if (log.substr(0, log.find('\n')).find("Recursion detected") != std::string_view::npos)
+        failOfRecursion(source, log);
     const size_t colon = log.find(':');
     uint32_t line = 0;
     if (colon != std::string_view::npos) {
@@ -132,7 +167,7 @@ std::unique_ptr<WaitingProcess> WaitingCompiler::take() {
 std::string placeInSource(const ProgramSource& source, const std::string& file, uint32_t line) {
     if (file == kParameters && line >= 2 && line - 2 < source.parameters.size())
         line = source.parameters[line - 2].line;
-    else if (file != kSource)
+    else if (file != kSourceFile)
         return "";
     return line > 0 ? "line " + std::to_string(line) : "";
 }
@@ -140,7 +175,8 @@ std::string placeInSource(const ProgramSource& source, const std::string& file, 
 std::vector<uint32_t> compileProgram(const ProgramSource& source, const ProgramCompiler& compiler,
                                      const std::function<bool()>& stop, WaitingCompiler* waiting) {
     std::vector<uint8_t> bytes;
-    for (const std::string& text : {std::string(kSource), declarationOf(source.parameters), source.text}) {
+    for (const std::string& text :
+         {std::string(kSourceFile), declarationOf(source.parameters), source.text}) {
         bytes.insert(bytes.end(), text.begin(), text.end());
         bytes.push_back(0);
     }

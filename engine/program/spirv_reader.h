@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace touchstone::program {
 
 constexpr size_t kMaxSpirvWords = size_t{1} << 18;
 constexpr uint32_t kMaxSpirvIds = uint32_t{1} << 16;
+
+/// What the compiler calls the file of the user's source.
+inline constexpr std::string_view kSourceFile = "source";
 
 /// Where a module came from: file and line of the source, line 0 where the module does not say.
 struct SourceLine {

@@ -287,10 +287,10 @@ RunResult execute(const RegisterProgram& program, Registers& r, uint32_t budget)
         case Operation::Return:
         case Operation::Unreachable:
             return {at.operation == Operation::Return ? Ending::Finished : Ending::Unreachable,
-                    spent + program.cost[i + 1] - program.cost[from]};
+                    spent + program.cost[i + 1] - program.cost[from], static_cast<uint16_t>(i)};
         default:
             if (const Ending ending = perform(r, at); ending != Ending::Finished)
-                return {ending, spent + program.cost[i + 1] - program.cost[from]};
+                return {ending, spent + program.cost[i + 1] - program.cost[from], static_cast<uint16_t>(i)};
             break;
         }
         if (!jumps)
@@ -299,7 +299,7 @@ RunResult execute(const RegisterProgram& program, Registers& r, uint32_t budget)
             spent += program.cost[i + 1] - program.cost[from];
             from = at.c;
             if (spent > budget)
-                return {Ending::BudgetReached, spent};
+                return {Ending::BudgetReached, spent, static_cast<uint16_t>(i)};
         }
         i = size_t{at.c} - 1; // wraps round at 0, and the loop adds 1
     }
@@ -329,7 +329,7 @@ RunResult run(const RegisterProgram& program, std::span<const PortValue, kMaxLoc
             const float value = r.real(port.first + i);
             outputs[port.location][i] = value;
             if (!std::isfinite(value) && result.ending == Ending::Finished)
-                result.ending = Ending::NotFinite;
+                result = {Ending::NotFinite, result.cost, static_cast<uint16_t>(port.first + i)};
         }
     return result;
 }
@@ -349,7 +349,7 @@ RunResult runDual(const RegisterProgram& program, std::span<const DualPortValue,
             outputs[port.location].d[i] = value.d;
             if (!std::isfinite(value.v + value.d[0] + value.d[1] + value.d[2]) &&
                 result.ending == Ending::Finished)
-                result.ending = Ending::NotFinite;
+                result = {Ending::NotFinite, result.cost, static_cast<uint16_t>(port.first + i)};
         }
     return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Runs register programs on the servo: no allocation, no lock, no throw, bounded time.
 
+#include "haptics/program/ending.h"
 #include "haptics/program/register_program.h"
 
 #include <array>
@@ -8,16 +9,6 @@
 #include <span>
 
 namespace touchstone::program {
-
-/// How a run ended. Only a finished run has outputs.
-enum class Ending : uint8_t {
-    Finished,
-    BudgetReached,  ///< more than the budget, counted at every jump backwards
-    BadIndex,       ///< an array index outside of its array
-    DivisionByZero, ///< of integers
-    Unreachable,
-    NotFinite, ///< an output, or a derivative of one, is a NaN or an infinity
-};
 
 /// Up to four components at a location.
 using PortValue = std::array<float, 4>;
@@ -31,6 +22,7 @@ struct DualPortValue {
 struct RunResult {
     Ending ending = Ending::Finished;
     uint32_t cost = 0; ///< an upper bound, in the units of operation.h
+    uint16_t at = 0;   ///< as ProgramEnd::at
 };
 
 /// Runs the program on inputs and outputs by location (at least kMaxLocations of each; the program reads and

@@ -42,6 +42,7 @@ void ProgramBuilder::emit(const Instruction& instruction) {
         throw Refusal("has more than " + std::to_string(kMaxInstructions) + " instructions",
                       "call functions less often, or turn repetitions into loops");
     program_.instructions.push_back(instruction);
+    program_.lines.push_back(line_);
 }
 
 uint16_t ProgramBuilder::result(Operation operation, size_t count, uint16_t a, uint16_t b, uint16_t c,

@@ -21,6 +21,8 @@ class ProgramBuilder {
     /// First of so many registers, which are zero at first.
     uint16_t allocate(size_t count);
     void emit(const Instruction& instruction);
+    /// The line of the source that instructions come from which are emitted next.
+    void setLine(uint32_t line) { line_ = line; }
     /// Emits it with registers of its own for the result, whose first is returned.
     uint16_t result(Operation operation, size_t count, uint16_t a, uint16_t b = 0, uint16_t c = 0,
                     size_t results = 0);
@@ -42,6 +44,7 @@ class ProgramBuilder {
   private:
     RegisterProgram program_;
     size_t registers_ = 0;
+    uint32_t line_ = 0;
     std::map<uint32_t, size_t> blocks_;
     std::vector<std::pair<size_t, uint32_t>> open_;
 };

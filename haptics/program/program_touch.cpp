@@ -105,7 +105,7 @@ RunResult runWithDifferences(const RegisterProgram& program, const ProgramContac
                 run(program, beside, there, contact.budget - std::min(contact.budget, result.cost));
             result.cost += other.cost;
             if (other.ending != Ending::Finished)
-                result.ending = other.ending;
+                result = {other.ending, result.cost, other.at};
             difference += sign * heightOf(contact, beside, there);
             distance += sign * static_cast<double>(beside[kPosition][k]);
         }
@@ -175,6 +175,7 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
                                                : run(program, in, out, contact.budget);
     felt.ending = result.ending;
     felt.cost = result.cost;
+    felt.at = result.at;
     if (result.ending != Ending::Finished)
         return felt;
     const PortValue& material = out[kOutMaterial];
@@ -184,6 +185,7 @@ ProgramFelt feelProgram(const RegisterProgram& program, ProgramGradient gradient
         boundedForce(contact, freeForce(contact, in, out, displacement, stiffness, height), stiffness);
     if (!std::isfinite(force.x + force.y + force.z)) {
         felt.ending = Ending::NotFinite;
+        felt.at = ProgramEnd::kForce;
         return felt;
     }
     felt.force = force;

@@ -66,6 +66,7 @@ struct ProgramFelt {
     /// (model m, at least 0).
     double persistentChange = 0.0, brush = 0.0;
     uint32_t cost = 0; ///< of all runs, see operation.h
+    uint16_t at = 0;   ///< as ProgramEnd::at
 };
 
 /// One call a tick and contact. On the servo: bounded, no allocation.

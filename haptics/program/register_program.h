@@ -46,6 +46,9 @@ struct RegisterProgram {
     std::vector<Instruction> instructions; ///< the last one is a Return
     /// cost[i]: of all instructions before i, from the first in the list; one more than instructions.
     std::vector<uint32_t> cost;
+    /// Of each instruction: the line of the source from 1, 0 where it comes from none. What a function of the
+    /// library does counts as the line that calls it. For messages.
+    std::vector<uint32_t> lines;
     std::vector<uint32_t> constants; ///< of the first registers: constants, then parameters
     uint16_t registers = 0;          ///< all of them
     std::vector<Port> inputs, outputs;

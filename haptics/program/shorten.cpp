@@ -103,14 +103,18 @@ void shorten(RegisterProgram& program) {
         kept = static_cast<uint16_t>(kept + (readings.needed(at) ? 1 : 0));
     }
     std::vector<Instruction> instructions;
-    for (Instruction at : program.instructions) {
+    std::vector<uint32_t> lines;
+    for (size_t i = 0; i < program.instructions.size(); ++i) {
+        Instruction at = program.instructions[i];
         if (!readings.needed(at))
             continue;
+        lines.push_back(program.lines[i]);
         if (isJump(at.operation))
             at.c = places[at.c];
         instructions.push_back(at);
     }
     program.instructions = std::move(instructions);
+    program.lines = std::move(lines);
 }
 
 } // namespace touchstone::program

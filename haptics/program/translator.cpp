@@ -189,6 +189,8 @@ class Translator {
         }
         if (!open_)
             refuseDamaged("an instruction is in no block");
+        if (const SourceLine place = module_.placeOf(at); place.file == kSourceFile)
+            t_.build.setLine(place.line);
         if (translateArithmetic(t_, at) || translateComposite(t_, at) || translateMemory(t_, at) ||
             translateExtended(t_, at) || translateMatrix(t_, at))
             return;

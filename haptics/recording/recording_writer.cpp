@@ -11,7 +11,7 @@ namespace touchstone {
 namespace {
 
 static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 22 &&
-                  memberCount<HapticOutput>() == 21,
+                  memberCount<HapticOutput>() == 22,
               "a member was added: a replay needs it, compares it (stage_hashes.cpp), or is it for people?");
 
 /// Of the ticks with a display; none: there are none.

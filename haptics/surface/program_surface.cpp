@@ -124,6 +124,7 @@ ProgramRun programRun(const ToolMotion& tool, const glm::dvec3& velocity, double
             .zoom = zoom,
             .dt = dt,
             .budget = program::kBudget,
+            .end = {},
             .textures = textures};
 }
 
@@ -176,10 +177,10 @@ void runProgram(const HapticScene& scene, ObjectMotions motions, const HapticSet
     const ProgramFelt felt =
         program::feelProgram(program.code, gradientOf(settings.programs, program.displaces), at);
     run.budget -= std::min(run.budget, felt.cost);
-    if (felt.ending != program::Ending::Finished)
-        run.failed = true;
-    else
+    if (felt.ending == program::Ending::Finished)
         take(felt, settings, programFromReference, depth, feel);
+    else if (run.end.ending == program::Ending::Finished)
+        run.end = {felt.ending, felt.at, contact.object};
     if (texture != nullptr && felt.persistentChange != 0.0 && felt.brush > 0.0)
         queueStroke(felt, contact.object, point, n, programFromObject.scale, run);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Stage 5, haptic programs: what the program of a touched material makes of the sample.
 
+#include "haptics/program/ending.h"
 #include "haptics/surface/surface_sample.h"
 
 #include <glm/glm.hpp>
@@ -15,11 +16,11 @@ class PersistentTextures; // haptics/texture/persistent_textures.h
 /// Of one hand in one tick. The contacts of a corner share the budget: what the first leaves is the second's.
 struct ProgramRun {
     const ToolMotion& tool;
-    glm::dvec3 velocity{0.0}; ///< of the HIP relative to the surface, m/s, reference object frame
-    double zoom = 1.0;        ///< workspace metres for one device metre
-    double dt = 1e-3;         ///< s
-    uint32_t budget = 0;      ///< left, in the units of haptics/program/operation.h
-    bool failed = false;      ///< some program had no result: its surface is plain
+    glm::dvec3 velocity{0.0};  ///< of the HIP relative to the surface, m/s, reference object frame
+    double zoom = 1.0;         ///< workspace metres for one device metre
+    double dt = 1e-3;          ///< s
+    uint32_t budget = 0;       ///< left, in the units of haptics/program/operation.h
+    program::ProgramEnd end{}; ///< the first that has no result: its surface is plain
     /// The world's; null where it has none. Programs read them, and queue the strokes of this tick.
     PersistentTextures* textures = nullptr;
     double part = 1.0; ///< of the next contact: its fraction of the load, as in withProgram

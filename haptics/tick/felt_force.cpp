@@ -31,8 +31,10 @@ ProgramRun beginPrograms(const HandTick& tick, DeviceState& state, const glm::dv
     return programRun(state.tool, velocity, tick.zoom, tick.dt, tick.textures);
 }
 
-uint32_t failureOf(const ProgramRun& programs) {
-    return programs.failed ? 0u | TickFlag::ProgramFailed : 0u;
+void publishEnd(const ProgramRun& programs, HapticOutput& output) {
+    output.programEnd = programs.end;
+    if (programs.end.ending != program::Ending::Finished)
+        output.flags = output.flags | TickFlag::ProgramFailed;
 }
 
 } // namespace
@@ -47,7 +49,7 @@ FeltShape turnedShape(const HandTick& tick, int reference, const Contact& facet,
 }
 
 void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contact, const glm::dvec3& normal,
-                 double depth, const glm::dvec3& velocity, SurfaceSample& feel, uint32_t& flags) {
+                 double depth, const glm::dvec3& velocity, SurfaceSample& feel, HapticOutput& output) {
     const double speed = glm::length(velocity - glm::dot(velocity, normal) * normal);
     feel = readSurface(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, contact, normal,
                        depth, speed, tick.dt);
@@ -55,7 +57,7 @@ void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contac
         ProgramRun programs = beginPrograms(tick, state, normal, velocity);
         runProgram(tick.scene, tick.motions, tick.settings, tick.limits, state.reference, contact, depth,
                    programs, feel);
-        flags |= failureOf(programs);
+        publishEnd(programs, output);
     }
     if (tick.dents != nullptr)
         pressDents(tick.scene, tick.motions, state.reference, contact, speed, *tick.dents, feel);
@@ -63,7 +65,7 @@ void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contac
 
 void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& activeSet, const glm::dvec3& offset,
                  double workspacePerReference, const glm::dvec3& velocity, SurfaceSample& feel,
-                 SeveralContacts& several, uint32_t& flags) {
+                 SeveralContacts& several, HapticOutput& output) {
     ContactLoads loads;
     std::optional<ProgramRun> programs;
     if (tick.scene.plan.programs) {
@@ -75,7 +77,7 @@ void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& active
               state.shaded, offset, workspacePerReference, velocity, tick.zoom, tick.dt,
               programs ? &*programs : nullptr, tick.dents, loads);
     if (programs)
-        flags |= failureOf(*programs);
+        publishEnd(*programs, output);
     const glm::dvec3 elastic = elasticForce(loads), felt = velocity / std::max(tick.zoom, 1.0);
     several.force = elastic + dampingForce(loads, felt);
     several.cone = FrictionCone(loads, felt, workspacePerReference);

@@ -58,7 +58,7 @@ inline glm::dvec3 surfaceVelocity(const HandTick& tick, const DeviceState& state
 /// Stage 5 where the touched material needs it. `velocity` of the HIP relative to the surface.
 [[gnu::noinline]] void feelTexture(const HandTick& tick, DeviceState& state, const Contact& contact,
                                    const glm::dvec3& normal, double depth, const glm::dvec3& velocity,
-                                   SurfaceSample& feel, uint32_t& flags);
+                                   SurfaceSample& feel, HapticOutput& output);
 
 /// Stages 5 and 7 without friction, where several contacts are felt separately.
 struct SeveralContacts {
@@ -72,7 +72,7 @@ struct SeveralContacts {
 [[gnu::noinline]] void feelSeveral(const HandTick& tick, DeviceState& state, const SubGoal& activeSet,
                                    const glm::dvec3& offset, double workspacePerReference,
                                    const glm::dvec3& velocity, SurfaceSample& feel, SeveralContacts& several,
-                                   uint32_t& flags);
+                                   HapticOutput& output);
 
 /// The elastic force of each contact where all are felt as one: `stiffness` (N/m) times lambda_i n_i. Fills
 /// tick.parts.
@@ -138,10 +138,10 @@ Felt feltForce(const HandTick& tick, const glm::dvec3& hip, const glm::dvec3& he
         if (plain)
             plainSample(scene, settings, tick.limits, contact, shape.normal, depth, feel);
         else if (asOne)
-            feelTexture(tick, state, contact, shape.normal, depth, velocity, feel, output.flags);
+            feelTexture(tick, state, contact, shape.normal, depth, velocity, feel, output);
         else if constexpr (Effects)
             feelSeveral(tick, state, activeSet, state.proxy - hip, workspaceFromReference.scale, velocity,
-                        feel, several, output.flags);
+                        feel, several, output);
         if (asOne && tick.parts != nullptr) [[unlikely]]
             splitPlain(tick, state, activeSet, feel.stiffness, workspaceFromReference.scale);
     }

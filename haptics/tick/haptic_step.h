@@ -3,6 +3,7 @@
 
 #include "engine/device_io/device_io.h"
 #include "engine/math/similarity.h"
+#include "haptics/program/ending.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/settings/tick_flags.h"
 #include "haptics/shape/field/sculpt/live_tool.h"
@@ -46,6 +47,7 @@ struct HapticOutput {
     uint32_t iterations = 0;  ///< proxy moves
     FrictionState friction = FrictionState::Free;
     uint32_t flags = 0;                 ///< TickFlag bits
+    program::ProgramEnd programEnd{};   ///< with TickFlag::ProgramFailed
     int object = -1;                    ///< touched object, -1 without contact
     int triangle = -1;                  ///< touched triangle of that object's mesh
     std::array<glm::dvec3, 3> planes{}; ///< active constraint planes' normals, `planeCount` of them

@@ -7,6 +7,7 @@
 // Compilers crash on hostile text. So this one runs in a process of its own: the parent limits memory and
 // time, and the sandbox leaves it no file, network or process.
 
+#include "engine/import/program_compiler/endless_loop.h"
 #include "engine/import/program_compiler/material_shaders.h"
 #include "engine/import/reader_child/sandbox.h"
 #include "engine/import/reader_child/standard_streams.h"
@@ -180,7 +181,8 @@ void work(bool waits) {
         input = awaited;
     }
     const std::string name = take(input), parameters = take(input), source = take(input);
-    const std::vector<uint32_t> words = inlined(compile(name, parameters, source));
+    const std::vector<uint32_t> whole = compile(name, parameters, source);
+    const std::vector<uint32_t> words = withEndlessLoop(inlined(whole), whole, name);
     writeOutput(words.data(), 4 * words.size());
     _exit(0); // memory is the system's to tidy
 }

@@ -57,9 +57,13 @@ TEST(ProgramProblems, WhatProgramsDoNotHaveIsRefusedAtItsLine) {
     expectProblem("\n" + touchBody("after.force.x = unpackHalf2x16(uint(before.position.x)).x;"),
                   "translator, source:3", "GLSL.std.450");
     expectProblem(touchBody("discard;"), "line 2: ", "");
-    expectProblem("float f(float x) { return x > 1.0 ? f(x - 1.0) : x; }\n" +
+    expectProblem("// floor f\n\nfloat f(float x) { return x > 1.0 ? f(x - 1.0) : x; }\n" +
                       touchBody("after.force.x = f(before.position.x);"),
-                  ": ", "ecursi");
+                  "line 3: ", "'f' calls 'f', which comes back to it: recursion");
+    expectProblem(
+        "float g(float x);\nfloat h(float x) { return g(x); }\nfloat g(float x) { return h(x); }\n" +
+            touchBody("after.force.x = g(before.position.x);"),
+        "line ", "recursion");
 }
 
 TEST(ProgramProblems, SourcesThatAreNoTextAreRefused) {
