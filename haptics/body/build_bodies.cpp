@@ -15,8 +15,10 @@ namespace touchstone::body {
 class BodyBuilder {
   public:
     BodyBuilder(const Scene& scene, const HapticScene& haptic, std::vector<Warning>* warnings)
-        : scene_(scene), haptic_(haptic), physics_(*scene.physics), warnings_(warnings),
-          sceneFromNode_(sceneFromNodes(scene.nodes)), scale_(haptic.workspaceFromScene.scale) {}
+        : scene_(scene), haptic_(haptic),
+          objects_(haptic.wholeObjects.empty() ? haptic.objects : haptic.wholeObjects),
+          physics_(*scene.physics), warnings_(warnings), sceneFromNode_(sceneFromNodes(scene.nodes)),
+          scale_(haptic.workspaceFromScene.scale) {}
 
     std::shared_ptr<BodyWorld> build();
 
@@ -43,6 +45,7 @@ class BodyBuilder {
 
     const Scene& scene_;
     const HapticScene& haptic_;
+    const std::vector<std::shared_ptr<const HapticObject>>& objects_; ///< of the whole scene
     const Physics& physics_;
     std::vector<Warning>* warnings_;
     std::vector<glm::dmat4> sceneFromNode_;
@@ -129,7 +132,7 @@ VolumeMoments BodyBuilder::momentsOfBody(size_t b) const {
             moments += momentsOf(forms_[i], triangles_[i]).in(forms_[i].bodyFromCollider);
     if (moments.volume > 0.0)
         return moments;
-    for (const auto& object : haptic_.objects) {
+    for (const auto& object : objects_) {
         if (object->instance < 0 || object->empty() || object->shape != nullptr)
             continue;
         const Instance& instance = scene_.instances[static_cast<size_t>(object->instance)];
@@ -207,11 +210,11 @@ void BodyBuilder::readBody(size_t b) {
 
 void BodyBuilder::readObjects() {
     BodyWorld& world = *world_;
-    world.bodyOfObject_.assign(haptic_.objects.size(), -1);
+    world.bodyOfObject_.assign(objects_.size(), -1);
     for (size_t b = 0; b < world.states_.size(); ++b) {
         world.firstObject_.push_back(static_cast<uint32_t>(world.objects_.size()));
-        for (size_t k = 0; k < haptic_.objects.size(); ++k) {
-            const HapticObject& object = *haptic_.objects[k];
+        for (size_t k = 0; k < objects_.size(); ++k) {
+            const HapticObject& object = *objects_[k];
             if (object.instance < 0)
                 continue;
             const Instance& instance = scene_.instances[static_cast<size_t>(object.instance)];

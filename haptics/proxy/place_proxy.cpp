@@ -64,6 +64,8 @@ void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState
     } else if (gone(state.reference)) {
         changeReference(state, motions, nearestObject(scene, motions, state.hip));
     }
+    if (gone(state.grasp.object))
+        state.grasp = {};
     if (gone(state.shadedObject)) {
         state.shaded = false;
         state.shadedObject = -1;

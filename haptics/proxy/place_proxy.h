@@ -33,7 +33,7 @@ void letGo(DeviceState& state) noexcept;
 /// Between two ticks, after objects of the scene have lost all their triangles (SceneSwap::SameGeometry).
 /// `motions`: of the preceding tick. A hand that touched one of them begins again, once it is clear of what
 /// is left: what stood behind it would push at full depth. Any other touch goes on, in the frame of an object
-/// that is left.
+/// that is left. A hand that holds the body of one lets it go.
 void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState& state) noexcept;
 
 /// Between two ticks, after the fields of `reshaped` (HapticScene::objects) have changed. `motions`: of the

@@ -1,5 +1,6 @@
 #include "haptics/proxy/take_up_part.h"
 
+#include "engine/scene/mesh_deformation.h"
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/query/clear_of_model.h"
 #include "haptics/shape/mesh/triangle.h"
@@ -59,18 +60,13 @@ bool mayGoOn(const HapticScene& scene, ObjectMotions motions, double workspaceRa
 
 } // namespace
 
-bool canTakeUpPart(const Scene* source, const HapticScene& haptic) {
-    if (!haptic.texels.empty())
-        return false;
-    return source == nullptr ||
-           (source->physics == nullptr && std::ranges::none_of(source->meshes, [](const Mesh& mesh) {
-                return mesh.deformation != nullptr;
-            }));
+bool canTakeUpPart(const Scene* source) {
+    return source == nullptr || !hasSoftBodies(*source);
 }
 
-void takeUpPart(const HapticScene& scene, const HapticScene* before, ObjectMotions motions, double radius,
-                DeviceState& state) noexcept {
-    letGoOfEmptied(scene, motions, state);
+void takeUpPart(const HapticScene& scene, const HapticScene& now, const HapticScene* before,
+                ObjectMotions motions, double radius, DeviceState& state) noexcept {
+    letGoOfEmptied(now, motions, state);
     state.candidates.invalidate();
     state.obstacleCandidates.invalidate();
     state.shaded = false;
@@ -79,9 +75,9 @@ void takeUpPart(const HapticScene& scene, const HapticScene* before, ObjectMotio
     if (goesOn) {
         const glm::dvec3 proxy =
             motions[static_cast<size_t>(state.reference)].workspaceFromObject.point(state.proxy);
-        goesOn = mayGoOn(scene, motions, radius, proxy, state) &&
-                 (!isEnclosed(scene, motions, proxy) ||
-                  (before != nullptr && isEnclosed(*before, motions, proxy)));
+        goesOn = mayGoOn(now, motions, radius, proxy, state) &&
+                 (!isEnclosed(now, motions, proxy) ||
+                  (before != nullptr && isEnclosedIn(*before, scene, now, motions, proxy)));
     }
     if (!goesOn)
         letGo(state);

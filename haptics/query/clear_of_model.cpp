@@ -51,11 +51,13 @@ bool meets(const HapticObject& object, const glm::dvec3& from, const glm::dvec3&
     return object.shape->sweep(from, 0.0, far * along, 1.0) < 1.0;
 }
 
-/// True where the ray from `hip` along the unit vector `direction` meets a two-sided surface.
-bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip,
+/// True where the ray from `hip` along the unit vector `direction` meets a two-sided surface. `objectAt`: of
+/// each number.
+template <class ObjectAt>
+bool isBarred(const ObjectAt& objectAt, ObjectMotions motions, const glm::dvec3& hip,
               const glm::dvec3& direction) noexcept {
-    for (size_t k = 0; k < scene.objects.size(); ++k) {
-        const HapticObject& object = *scene.objects[k];
+    for (size_t k = 0; k < motions.size(); ++k) {
+        const HapticObject& object = objectAt(k);
         if (object.oneSided)
             continue;
         const Similarity& pose = motions[k].workspaceFromObject;
@@ -68,19 +70,33 @@ bool isBarred(const HapticScene& scene, ObjectMotions motions, const glm::dvec3&
     return false;
 }
 
-} // namespace
-
-bool isEnclosed(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
+template <class ObjectAt>
+bool isEnclosedBy(const ObjectAt& objectAt, ObjectMotions motions, const glm::dvec3& hip) noexcept {
     int barred = 0, left = 2 * static_cast<int>(kAxes);
     for (const glm::dvec3& direction : kDirections)
         for (const double sign : {1.0, -1.0}) {
-            barred += isBarred(scene, motions, hip, sign * direction) ? 1 : 0;
+            barred += isBarred(objectAt, motions, hip, sign * direction) ? 1 : 0;
             if (barred >= kEnclosing)
                 return true;
             if (barred + --left < kEnclosing)
                 return false;
         }
     return false;
+}
+
+} // namespace
+
+bool isEnclosed(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {
+    return isEnclosedBy([&](size_t k) -> const HapticObject& { return *scene.objects[k]; }, motions, hip);
+}
+
+bool isEnclosedIn(const HapticScene& part, const HapticScene& scene, const HapticScene& now,
+                  ObjectMotions motions, const glm::dvec3& hip) noexcept {
+    return isEnclosedBy(
+        [&](size_t k) -> const HapticObject& {
+            return part.objects[k] == scene.objects[k] ? *now.objects[k] : *part.objects[k];
+        },
+        motions, hip);
 }
 
 bool clearOfModel(const HapticScene& scene, ObjectMotions motions, const glm::dvec3& hip) noexcept {

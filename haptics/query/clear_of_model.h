@@ -24,5 +24,9 @@ inline constexpr double kModelReach = 5e-3;
 /// The second half of that: two-sided surfaces are met in 10 of 14 directions from `point` (workspace).
 [[nodiscard]] bool isEnclosed(const HapticScene& scene, ObjectMotions motions,
                               const glm::dvec3& point) noexcept;
+/// The same of another part of the scene: of `part`, but where it has the objects of `scene` those of `now`,
+/// which are as this tick deforms them (WorldState::touched).
+[[nodiscard]] bool isEnclosedIn(const HapticScene& part, const HapticScene& scene, const HapticScene& now,
+                                ObjectMotions motions, const glm::dvec3& point) noexcept;
 
 } // namespace touchstone

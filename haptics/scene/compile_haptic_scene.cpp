@@ -44,6 +44,7 @@ std::shared_ptr<const HapticObject> builtObject(const Scene& scene, int instance
 std::shared_ptr<HapticScene> copyOf(const HapticScene& scene) {
     auto copy = std::make_shared<HapticScene>();
     copy->objects = scene.objects;
+    copy->wholeObjects = scene.wholeObjects;
     copy->restMotions = scene.restMotions;
     copy->restSpheres = scene.restSpheres;
     copy->boundingRadii = scene.boundingRadii;

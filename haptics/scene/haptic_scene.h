@@ -27,8 +27,11 @@ class HapticScene {
     HapticScene& operator=(const HapticScene&) = delete;
 
     std::vector<std::shared_ptr<const HapticObject>> objects; ///< one per Scene instance with triangles
-    std::vector<ObjectMotion> restMotions;                    ///< one per object: at rest
-    std::vector<glm::dvec4> restSpheres;                      ///< one per object: boundingSphere at rest
+    /// Of a part of a scene (partOf): the objects of the whole one, so that bodies have the mass and size of
+    /// theirs whatever is hidden or cut. Empty: it is whole.
+    std::vector<std::shared_ptr<const HapticObject>> wholeObjects;
+    std::vector<ObjectMotion> restMotions;     ///< one per object: at rest
+    std::vector<glm::dvec4> restSpheres;       ///< one per object: boundingSphere at rest
     std::vector<double> boundingRadii;         ///< one per object: HapticObject::boundingRadius, side by side
     std::vector<HapticMaterialData> materials; ///< index = Scene material
     /// One per object where some material has a program, else empty: the frame of programs

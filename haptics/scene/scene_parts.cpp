@@ -123,7 +123,10 @@ std::shared_ptr<HapticScene> partOf(const HapticScene& whole, const Scene& sourc
         felt->restSpheres[k] = boundingSphere(*object, object->workspaceFromObject);
         felt->boundingRadii[k] = object->boundingRadius;
     }
-    placeTexels(&whole, *felt);
+    // Texels are those of the whole: what touch has made of a texture stays while the plane moves, and a
+    // hidden object keeps its own.
+    if (whole.wholeObjects.empty())
+        felt->wholeObjects = whole.objects;
     if (whole.hasRays())
         felt->buildRays(); // of the objects that are new
     return felt;

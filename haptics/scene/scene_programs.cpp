@@ -114,12 +114,14 @@ void placeTexels(const HapticScene* before, HapticScene& haptic, const Progress&
     for (size_t k = 0; k < count; ++k) {
         const HapticObject& object = *haptic.objects[k];
         const PersistentTextureSize size = textureOf(haptic, object);
-        if (size.width == 0 || object.empty())
+        std::shared_ptr<const TexelMap> kept;
+        if (before != nullptr && k < before->texels.size() && before->objects[k] == haptic.objects[k])
+            kept = before->texels[k];
+        if (size.width == 0 || (object.empty() && kept == nullptr))
             continue;
         haptic.texels.resize(count);
         std::shared_ptr<const TexelMap>& texels = haptic.texels[k];
-        if (before != nullptr && k < before->texels.size() && before->objects[k] == haptic.objects[k])
-            texels = before->texels[k];
+        texels = std::move(kept);
         if (texels == nullptr || texels->width() != size.width || texels->height() != size.height)
             texels = TexelMap::of(object, size.width, size.height,
                                   progress.part(static_cast<double>(k) / static_cast<double>(count),

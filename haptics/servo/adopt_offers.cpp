@@ -33,8 +33,9 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
         const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
         for (DeviceState& device : touch.devices) {
             if (otherPart)
-                takeUpPart(*offer->scene, offer->before == touch.root ? offer->partBefore.get() : nullptr,
-                           motions, feltRadius(*touch.settings), device);
+                takeUpPart(*offer->scene, offer->world.touched(*offer->scene),
+                           offer->before == touch.root ? offer->partBefore.get() : nullptr, motions,
+                           feltRadius(*touch.settings), device);
             else
                 letGoOfEmptied(*offer->scene, motions, device);
             if (!offer->reshaped.empty())

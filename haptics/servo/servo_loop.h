@@ -88,8 +88,8 @@ enum class SceneSwap : uint8_t {
     SameGeometry, ///< the scene offered last, with other materials (withMaterials) or with more hidden
                   ///< objects (partOf): touch continues
     OtherPart,    ///< another part of that scene (partOf): touch continues where nothing that comes to be
-                  ///< felt meets or encloses the hand (takeUpPart), but in a scene with bodies, deforming
-                  ///< meshes or persistent textures, which begins anew
+                  ///< felt meets or encloses the hand (takeUpPart), as do bodies and persistent textures; a
+                  ///< scene with soft bodies begins anew
 };
 
 /// A scene whose fields were edited, from the thread that edits.

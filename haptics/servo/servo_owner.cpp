@@ -39,7 +39,7 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         soft_ = nullptr;
         return 0;
     }
-    if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get(), *scene))
+    if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get()))
         swap = SceneSwap::Anew;
     const bool goesOn = swap != SceneSwap::Anew;
     WorldState world(std::move(source), *scene, WorldBodies::Simulated, goesOn ? bodies_ : nullptr,
@@ -54,10 +54,11 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         driven_.emplace_back(number, std::move(driven));
     auto offer = std::make_shared<const Offer>(offerOf(std::move(scene), std::move(world), number, swap));
     // A stepped loop computes the vertices itself, so that it is deterministic.
-    if (thread_.joinable())
+    if (thread_.joinable()) // from two ticks ago: where the vertices are as the servo takes it up
         offer->world.publishAhead(animationTime(
             offeredSettings_.back().settings,
-            1e-9 * static_cast<double>(monotonicNs() - startedNs_.load(std::memory_order_relaxed))));
+            1e-9 * static_cast<double>(monotonicNs() - startedNs_.load(std::memory_order_relaxed)) -
+                2.0 / config_.rateHz));
     else
         waiting_ = offer;
     scene_.offer(std::move(offer));
@@ -89,7 +90,7 @@ ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, Wo
 }
 
 void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
-    if (swap == SceneSwap::OtherPart && !canTakeUpPart(scene.source.get(), *scene.scene))
+    if (swap == SceneSwap::OtherPart && !canTakeUpPart(scene.source.get()))
         swap = SceneSwap::Anew;
     WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_,
                      newestTextures());

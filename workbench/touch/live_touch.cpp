@@ -84,7 +84,7 @@ void LiveTouch::takePart(const FeltPart& made) {
         made.part.clip == before.clip && std::ranges::includes(made.part.hidden, before.hidden);
     SceneSwap swap = partBuild_.swap();
     if (swap != SceneSwap::Anew && !onlyLess)
-        swap = canTakeUpPart(shown_.model.scene.get(), *made.haptic) ? SceneSwap::OtherPart : SceneSwap::Anew;
+        swap = canTakeUpPart(shown_.model.scene.get()) ? SceneSwap::OtherPart : SceneSwap::Anew;
     const bool same = made.part == before;
     felt_ = made.whole;
     shown_.model.part = shown_.identity.part = made.part;
