@@ -3,12 +3,52 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace touchstone {
 
+CandidateCache::CandidateCache()
+    : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity),
+      pool_(kCapacity + kMaxKept), free_(pool_.size()), freeCount_(pool_.size()) {
+    for (size_t i = 0; i < free_.size(); ++i)
+        free_[i] = static_cast<uint32_t>(free_.size() - 1 - i);
+}
+
 void CandidateCache::prepare(Candidate& item) noexcept {
-    item.triangle = triangleOf(*item.source, item.index);
-    item.prepared = true;
+    item.prepared = free_[--freeCount_];
+    Prepared& made = pool_[item.prepared];
+    made.triangle = triangleOf(*item.source, item.index);
+    made.at = glm::dvec3(NAN);
+}
+
+/// Sets aside what this ball has prepared; the pool has room for that and for a full ball.
+void CandidateCache::keepPrepared() noexcept {
+    keptCount_ = 0;
+    for (size_t i = 0; i < count_; ++i) {
+        const Candidate& item = items_[i];
+        if (item.prepared == Candidate::kUnprepared)
+            continue;
+        if (keptCount_ == kMaxKept) {
+            release(item.prepared);
+            continue;
+        }
+        keptAt_[keptSlot(item.object, item.index)] = static_cast<uint16_t>(keptCount_);
+        kept_[keptCount_++] = {item.object, item.index, item.prepared};
+    }
+}
+
+void CandidateCache::releaseKept() noexcept {
+    for (size_t k = 0; k < keptCount_; ++k)
+        release(kept_[k].prepared);
+    keptCount_ = 0;
+}
+
+/// What the ball before has prepared of a triangle; kUnprepared: nothing.
+uint32_t CandidateCache::takeKept(int object, uint32_t index) noexcept {
+    const size_t k = keptAt_[keptSlot(object, index)];
+    if (k >= keptCount_ || kept_[k].index != index || kept_[k].object != object)
+        return Candidate::kUnprepared;
+    return std::exchange(kept_[k].prepared, Candidate::kUnprepared);
 }
 
 bool CandidateCache::gatherObject(const HapticObject& object, int index,
@@ -35,7 +75,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
         item.object = index;
         item.index = n.triangle;
         item.measured = 0;
-        item.prepared = false;
+        item.prepared = keptCount_ > 0 ? takeKept(index, n.triangle) : Candidate::kUnprepared;
         const auto distance = static_cast<double>(n.distance);
         setBound(count_, local, distance - doubt, glm::dvec3(n.away) * (1.0 / std::max(distance, 1e-30)));
         ++count_;
@@ -49,10 +89,11 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
 void CandidateCache::turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept {
     for (size_t i = first; i < count_; ++i) {
         Candidate& item = items_[i];
-        prepare(item);
-        item.triangle =
-            Triangle(referenceFromObject.point(item.triangle.a), referenceFromObject.point(item.triangle.b),
-                     referenceFromObject.point(item.triangle.c));
+        if (item.prepared == Candidate::kUnprepared) {
+            Triangle& triangle = prepared(item).triangle;
+            triangle = Triangle(referenceFromObject.point(triangle.a), referenceFromObject.point(triangle.b),
+                                referenceFromObject.point(triangle.c));
+        }
         // distance >= offset + g . p, with p in the reference object frame.
         Block& block = bounds_[i / kBlock];
         const size_t k = i % kBlock;
@@ -66,21 +107,36 @@ void CandidateCache::turnIntoReference(size_t first, const Similarity& reference
     }
 }
 
+/// Bounds of evaluations in place of those of boxes, which are farther from the surface.
+void CandidateCache::takeKeptBounds() noexcept {
+    const double far = 4.0 * radius_ * radius_;
+    for (size_t i = 0; i < count_; ++i) {
+        if (items_[i].prepared == Candidate::kUnprepared)
+            continue;
+        Prepared& known = pool_[items_[i].prepared];
+        const glm::dvec3 way = known.at - centre_;
+        if (glm::dot(way, way) <= far)
+            setBound(i, known.at, known.last.distance, known.last.gradient);
+        else
+            known.at = glm::dvec3(NAN); // its bound is the box's
+    }
+}
+
 bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                             std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre,
-                            double radius) noexcept {
+                            double radius, Frame frame) noexcept {
     return gatherAll(
-        objects, poses, [&](size_t k) { return spheres[k]; }, reference, centre, radius);
+        objects, poses, [&](size_t k) { return spheres[k]; }, reference, centre, radius, frame);
 }
 
 bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                             std::span<const double> radii, int reference, const glm::dvec3& centre,
-                            double radius) noexcept {
+                            double radius, Frame frame) noexcept {
     const auto sphereOf = [&](size_t k) {
         const Similarity& pose = poses[k].workspaceFromObject;
         return glm::dvec4(pose.translation, pose.scale * radii[k]);
     };
-    return gatherAll(objects, poses, sphereOf, reference, centre, radius);
+    return gatherAll(objects, poses, sphereOf, reference, centre, radius, frame);
 }
 
 /// `sphereOf(k)` reads nothing of the object itself: of a thousand objects, most are far from the hand and
@@ -88,8 +144,13 @@ bool CandidateCache::gather(std::span<const std::shared_ptr<const HapticObject>>
 template <class SphereOf>
 bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects,
                                ObjectMotions poses, const SphereOf& sphereOf, int reference,
-                               const glm::dvec3& centre, double radius) noexcept {
-    invalidate();
+                               const glm::dvec3& centre, double radius, Frame frame) noexcept {
+    if (valid_ && frame == Frame::Same) {
+        keepPrepared();
+        clear();
+    } else {
+        invalidate();
+    }
     oneSided_ = false;
     centre_ = centre;
     radius_ = radius;
@@ -121,10 +182,13 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
             fits = gatherFrom(&objectFromReference);
         }
         if (!fits) {
+            releaseKept();
             invalidate();
             return false;
         }
     }
+    releaseKept();
+    takeKeptBounds();
     for (size_t i = count_; i % kBlock != 0; ++i)
         setBound(i, glm::dvec3(0.0), INFINITY, glm::dvec3(0.0));
     valid_ = true;
@@ -157,20 +221,39 @@ double CandidateCache::clearanceAt(const glm::dvec3& p, double reach) noexcept {
     return least;
 }
 
+/// Asks for the corners of what will be evaluated: first for all indices, then for all vertices, so that the
+/// memory of all comes at once.
+[[gnu::always_inline]] inline void
+CandidateCache::fetchTriangles(std::span<const Approach> all) const noexcept {
+    const auto eachMissing = [&](const auto& visit) {
+        for (const Approach& approach : all)
+            if (const Candidate& item = items_[approach.index]; item.prepared == Candidate::kUnprepared)
+                visit(*item.source, &item.source->indices[3 * static_cast<size_t>(item.index)]);
+    };
+    eachMissing([](const HapticObject&, const uint32_t* corner) { __builtin_prefetch(corner); });
+    eachMissing([](const HapticObject& object, const uint32_t* corner) {
+        for (size_t k = 0; k < 3; ++k)
+            __builtin_prefetch(&object.vertices[corner[k]]);
+    });
+}
+
 std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3& p, const glm::dvec3& move,
                                                                 double limit, double reach) noexcept {
     const double doubt = uncertainty();
     size_t found = 0;
     for (size_t first = 0; first < count_; first += kBlock) {
         const Block& block = bounds_[first / kBlock];
-        std::array<double, kBlock> gap, rate;
-        for (size_t k = 0; k < kBlock; ++k) {
-            gap[k] = block.x[k] * p.x + block.y[k] * p.y + block.z[k] * p.z + block.offset[k] - reach;
-            rate[k] = block.x[k] * move.x + block.y[k] * move.y + block.z[k] * move.z;
+        alignas(32) std::array<double, kBlock> gap, rate;
+        uint32_t reached = 0;
+        for (size_t half = 0; half < kBlock; half += 4) {
+            const Double4 gaps = block.least(half, p) - reach, rates = block.along(half, move),
+                          ways = limit * rates, zero{};
+            reached |= bitsOf(~(gaps + (ways < zero ? ways : zero) > doubt)) << half;
+            std::memcpy(&gap[half], &gaps, sizeof gaps);
+            std::memcpy(&rate[half], &rates, sizeof rates);
         }
-        for (size_t k = 0; k < kBlock; ++k) {
-            if (gap[k] + std::min(0.0, limit * rate[k]) > doubt)
-                continue;
+        for (; reached != 0; reached &= reached - 1) {
+            const auto k = static_cast<size_t>(std::countr_zero(reached));
             // A bound that was evaluated at p is exact there.
             const auto i = static_cast<uint32_t>(first + k);
             const bool here = items_[i].measured == place_;
@@ -180,6 +263,7 @@ std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3
             approaches_[found++] = {.time = free > 0.0 ? free / -rate[k] : 0.0, .index = i, .steps = 0};
         }
     }
+    fetchTriangles({approaches_.data(), found});
     return {approaches_.data(), found};
 }
 

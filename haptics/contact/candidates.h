@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,12 +23,12 @@ namespace touchstone {
 
 /// One triangle near the proxy.
 struct Candidate {
+    static constexpr uint32_t kUnprepared = UINT32_MAX;
     const HapticObject* source = nullptr;
-    int object = -1;       ///< HapticScene::objects
-    uint32_t index = 0;    ///< triangle of that object
-    bool prepared = false; ///< `triangle` is computed
-    uint32_t measured = 0; ///< CandidateCache::place_ when its distance was last evaluated
-    Triangle triangle;     ///< frame of the reference object, object units
+    int object = -1;                 ///< HapticScene::objects
+    uint32_t index = 0;              ///< triangle of that object
+    uint32_t prepared = kUnprepared; ///< in CandidateCache::pool_
+    uint32_t measured = 0;           ///< CandidateCache::place_ when its distance was last evaluated
 };
 
 /// `items` holds every triangle that meets the ball (centre, radius), `shapes` every other shape; only these
@@ -36,30 +38,65 @@ struct Candidate {
 /// bounds it from below everywhere: distance(p) >= d + g . (p - q). These half-spaces, stored side by side,
 /// suffice for most triangles, wherever the proxy moves; only where one reaches up to the surface is the
 /// distance evaluated again. The triangle's box supplies the first half-space.
+///
+/// The proxy touches few of a ball's triangles, and touches most of those again after the next gather: their
+/// corners and their last evaluation are kept in a pool, so that a gather reads no vertex of a triangle that
+/// it has kept and none is evaluated twice at one place.
 class CandidateCache {
+    /// A triangle in the frame of the reference object, object units, and its last evaluation.
+    struct Prepared {
+        Triangle triangle;
+        TriangleDistance last;
+        glm::dvec3 at{NAN}; ///< where; NaN: none
+    };
     /// Half-spaces of eight triangles, for the vector unit; unused ones are far away.
     static constexpr size_t kBlock = 8;
+    using Double4 [[gnu::vector_size(32)]] = double;
     struct alignas(64) Block {
         std::array<double, kBlock> x, y, z, offset;
+
+        /// Of four half-spaces from `half` on, along a vector and at a place.
+        [[nodiscard, gnu::always_inline]] Double4 along(size_t half, const glm::dvec3& v) const noexcept {
+            return load(x, half) * v.x + load(y, half) * v.y + load(z, half) * v.z;
+        }
+        [[nodiscard, gnu::always_inline]] Double4 least(size_t half, const glm::dvec3& p) const noexcept {
+            return along(half, p) + load(offset, half);
+        }
+
+      private:
+        [[gnu::always_inline]] static Double4 load(const std::array<double, kBlock>& from,
+                                                   size_t half) noexcept {
+            Double4 result;
+            std::memcpy(&result, &from[half], sizeof result);
+            return result;
+        }
     };
+    /// Bit k: true in place k.
+    template <class Comparison>
+    [[gnu::always_inline]] static uint32_t bitsOf(Comparison comparison) noexcept {
+        return static_cast<uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Double4>(comparison)));
+    }
 
   public:
     /// Capacity for the densest neighbourhood in which the proxy still moves; beyond it the ball shrinks.
     static constexpr size_t kCapacity = 4096;
 
-    CandidateCache()
-        : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity) {}
+    /// Another: objects, poses or reference are not those of the gather before. Same: they are, so that what
+    /// was computed of a triangle still holds.
+    enum class Frame : uint8_t { Another, Same };
+
+    CandidateCache();
 
     /// Gathers everything that meets the ball, in the frame of `reference`. False when there may be more than
     /// kCapacity triangles: the cache is then empty and invalid. `spheres`: bounding spheres of the objects
     /// at these poses (centre, radius; workspace).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre,
-                double radius) noexcept;
+                std::span<const glm::dvec4> spheres, int reference, const glm::dvec3& centre, double radius,
+                Frame frame = Frame::Another) noexcept;
     /// The same where only the radii are known (object units).
     bool gather(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                std::span<const double> radii, int reference, const glm::dvec3& centre,
-                double radius) noexcept;
+                std::span<const double> radii, int reference, const glm::dvec3& centre, double radius,
+                Frame frame = Frame::Another) noexcept;
 
     /// Objects that a gather leaves out from now on: at most kMaxIgnored.
     static constexpr size_t kMaxIgnored = 8;
@@ -69,9 +106,9 @@ class CandidateCache {
     }
 
     void invalidate() noexcept {
-        valid_ = false;
-        count_ = 0;
-        shapes_.clear();
+        for (size_t i = 0; i < count_; ++i)
+            release(items_[i].prepared);
+        clear();
     }
 
     /// Distance that the proxy may move from `p` along the unit vector `direction` with every triangle within
@@ -96,11 +133,7 @@ class CandidateCache {
     [[nodiscard]] const Candidate& item(size_t i) const noexcept { return items_[i]; }
     /// The triangle, ready for distance queries. The proxy comes near few of a ball's triangles, so each is
     /// prepared at its first use.
-    [[nodiscard]] const Triangle& triangle(size_t i) noexcept {
-        if (!items_[i].prepared)
-            prepare(items_[i]);
-        return items_[i].triangle;
-    }
+    [[nodiscard]] const Triangle& triangle(size_t i) noexcept { return prepared(items_[i]).triangle; }
     /// The distance of triangle i from the proxy's place p, evaluated; sharpens its bound.
     TriangleDistance measure(size_t i, const glm::dvec3& p) noexcept {
         const TriangleDistance d = measureAhead(i, p);
@@ -109,10 +142,14 @@ class CandidateCache {
     }
     /// The same for a place ahead of the proxy.
     TriangleDistance measureAhead(size_t i, const glm::dvec3& p) noexcept {
-        const TriangleDistance d = distanceTo(triangle(i), p);
-        setBound(i, p, d.distance, d.gradient);
+        Prepared& known = prepared(items_[i]);
+        if (known.at != p) {
+            known.last = distanceTo(known.triangle, p);
+            known.at = p;
+            setBound(i, p, known.last.distance, known.last.gradient);
+        }
         items_[i].measured = 0; // not at the proxy's place
-        return d;
+        return known.last;
     }
     /// Far more than a resting proxy sinks into its surface, far less than the smallest radius: object units.
     static constexpr double kNotClear = 1e-8;
@@ -143,12 +180,11 @@ class CandidateCache {
         const double near = reach + uncertainty();
         for (size_t first = 0; first < count_; first += kBlock) {
             const Block& block = bounds_[first / kBlock];
-            std::array<double, kBlock> least;
-            for (size_t k = 0; k < kBlock; ++k)
-                least[k] = block.x[k] * p.x + block.y[k] * p.y + block.z[k] * p.z + block.offset[k];
-            for (size_t k = 0; k < kBlock; ++k)
-                if (least[k] <= near)
-                    visit(first + k);
+            uint32_t reached = 0;
+            for (size_t half = 0; half < kBlock; half += 4)
+                reached |= bitsOf(block.least(half, p) <= near) << half;
+            for (; reached != 0; reached &= reached - 1)
+                visit(first + static_cast<size_t>(std::countr_zero(reached)));
         }
     }
 
@@ -164,11 +200,34 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
+    void fetchTriangles(std::span<const Approach> all) const noexcept;
     [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
-                   const SphereOf& sphereOf, int reference, const glm::dvec3& centre, double radius) noexcept;
-    static void prepare(Candidate& item) noexcept;
+                   const SphereOf& sphereOf, int reference, const glm::dvec3& centre, double radius,
+                   Frame frame) noexcept;
+    Prepared& prepared(Candidate& item) noexcept {
+        if (item.prepared == Candidate::kUnprepared)
+            prepare(item);
+        return pool_[item.prepared];
+    }
+    void prepare(Candidate& item) noexcept;
+    void release(uint32_t prepared) noexcept {
+        if (prepared != Candidate::kUnprepared)
+            free_[freeCount_++] = prepared;
+    }
+    void clear() noexcept {
+        valid_ = false;
+        count_ = 0;
+        shapes_.clear();
+    }
+    void keepPrepared() noexcept;
+    void releaseKept() noexcept;
+    void takeKeptBounds() noexcept;
+    [[nodiscard]] uint32_t takeKept(int object, uint32_t index) noexcept;
+    static size_t keptSlot(int object, uint32_t index) noexcept {
+        return (index * 2654435761u + static_cast<uint32_t>(object) * 40503u) >> (32 - kKeptBits);
+    }
     void turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept;
     bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromReference,
                       const glm::dvec3& centre, double radius) noexcept;
@@ -182,13 +241,27 @@ class CandidateCache {
         block.offset[k] = distance - glm::dot(gradient, p);
     }
 
-    /// A bound may be too high by this: the gradient beside a radius of 5e-7 is good to 6e-10.
+    /// A bound may be too high by this: the gradient beside a radius of 5e-7 is good to 6e-10, and places are
+    /// at most three radii from where a bound was evaluated (takeKept).
     [[nodiscard]] double uncertainty() const noexcept { return 2e-9 * radius_; }
 
     std::vector<Candidate> items_;
     std::vector<Block> bounds_;
     std::vector<Approach> approaches_;
     std::vector<TriangleTree::Near> found_; ///< of one object
+    std::vector<Prepared> pool_;
+    std::vector<uint32_t> free_; ///< of the pool, a stack: those used last come first
+    size_t freeCount_ = 0;
+    /// While a gather runs: what the ball before it had prepared, found by a table that may miss.
+    static constexpr size_t kMaxKept = 256;
+    static constexpr uint32_t kKeptBits = 10;
+    struct Kept {
+        int object = -1;
+        uint32_t index = 0, prepared = Candidate::kUnprepared;
+    };
+    std::array<Kept, kMaxKept> kept_{};
+    std::array<uint16_t, size_t{1} << kKeptBits> keptAt_{};
+    size_t keptCount_ = 0;
     std::array<int, kMaxIgnored> ignored_{};
     NearShapes shapes_;
     size_t ignoredCount_ = 0;

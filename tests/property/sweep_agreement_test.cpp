@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -88,6 +89,54 @@ TEST(Sweep, NoBoundExceedsTheDistance) {
         }
         EXPECT_GT(culled, compared / 10);
     }
+}
+
+// A hand that moves on: balls overlap, and what one has prepared and measured serves the next.
+TEST(Sweep, NoBoundThatIsKeptFromBallToBallExceedsTheDistance) {
+    size_t kept = 0, culled = 0;
+    for (const World& world : worlds()) {
+        SCOPED_TRACE(world.name);
+        Places places(*world.scene);
+        CandidateCache cache;
+        glm::dvec3 centre(0.0), way(0.0);
+        for (int trial = 0; trial < 400; ++trial) {
+            const double radius = std::pow(10.0, places.between(-2.0, -1.5));
+            if (trial % 10 == 0) {
+                centre = places.next(0.02);
+                way = 0.01 * glm::normalize(places.next(0.02) - centre);
+            }
+            centre += way * places.between(0.0, 1.0);
+            std::vector<uint32_t> measured; // in the ball before
+            for (size_t i = 0; i < cache.count(); i += 2) {
+                (void)cache.measureAhead(i,
+                                         centre + 0.5 * radius * glm::normalize(places.next(0.1) - centre));
+                measured.push_back(cache.item(i).index);
+            }
+            ASSERT_TRUE(cache.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres,
+                                     0, centre, radius, CandidateCache::Frame::Same));
+            const glm::dvec3 p = centre + 0.5 * radius * glm::normalize(places.next(0.1) - centre);
+            const double reach = places.between(0.0, 0.5) * radius;
+            std::vector<bool> visited(cache.count(), false);
+            cache.eachNear(p, reach, [&](size_t i) { visited[i] = true; });
+            for (size_t i = 0; i < cache.count(); ++i) {
+                const Triangle& t = cache.triangle(i);
+                const Triangle fresh = triangleOf(*world.scene->objects[0], cache.item(i).index);
+                if (cache.item(i).object == 0) {
+                    EXPECT_EQ(t.a, fresh.a);
+                    EXPECT_EQ(t.normal, fresh.normal);
+                }
+                kept += std::ranges::count(measured, cache.item(i).index) > 0 ? 1 : 0;
+                if (visited[i])
+                    continue;
+                ++culled;
+                EXPECT_GT(distanceFrom({LVec3(t.a), LVec3(t.b), LVec3(t.c)}, LVec3(p)).distance,
+                          static_cast<long double>(reach))
+                    << "triangle " << cache.item(i).index << " trial " << trial;
+            }
+        }
+    }
+    EXPECT_GT(kept, 1000u);
+    EXPECT_GT(culled, 1000u);
 }
 
 TEST(Sweep, EndsAtTheFirstTouchAndNotLater) {

@@ -2,6 +2,7 @@
 
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
+#include "engine/core/huge_pages.h"
 #include "engine/core/parallel.h"
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/mesh_vertices.h"
@@ -146,6 +147,8 @@ void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& 
     local = {};
     object.vertices = std::move(weld.vertices);
     object.weldedVertices = weld.merged;
+    object.indices.reserve(object.sourceIndices.size());
+    wantHugePages(object.indices.data(), object.sourceIndices.size() * sizeof(uint32_t));
     object.indices.resize(object.sourceIndices.size());
     inParallel(object.indices.size(), progress.part(0.5, 0.6), kIndices, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
@@ -158,8 +161,12 @@ void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& 
             ++object.droppedTriangles;
     }
     object.closed = isClosed(object.indices, object.vertices.size(), progress.part(0.6, 1.0));
-    object.vertices.reserve(object.vertices.size() + 1);
-    object.vertices.emplace_back(0.0f); // spare, for Embree's 16-byte reads
+    std::vector<glm::vec3> vertices;
+    vertices.reserve(object.vertices.size() + 1);
+    wantHugePages(vertices.data(), vertices.capacity() * sizeof(glm::vec3));
+    vertices.assign(object.vertices.begin(), object.vertices.end());
+    vertices.emplace_back(0.0f); // spare, for Embree's 16-byte reads
+    object.vertices = std::move(vertices);
 }
 
 /// Chooses the object's frame by the vertices of `whole`; returns those of `mesh` in it.

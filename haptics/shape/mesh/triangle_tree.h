@@ -75,6 +75,7 @@ class TriangleTree {
     };
     static void pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                      std::span<const uint32_t> indices) noexcept;
+    void fetch(uint32_t child) const noexcept;
     size_t collectLeaf(const Leaf& leaf, const glm::vec3& centre, float radiusSquared,
                        std::span<Near> out) const noexcept;
 

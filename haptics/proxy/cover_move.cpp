@@ -1,0 +1,83 @@
+// What the proxy solver knows of its surroundings: the triangles and shapes within a ball, gathered again
+// where a move leaves it.
+
+#include "haptics/proxy/proxy_solver.h"
+#include "haptics/settings/tick_flags.h"
+
+#include <algorithm>
+
+namespace touchstone {
+
+namespace {
+
+/// Smaller balls are not worth gathering; the largest reaches beyond any object.
+constexpr double kSmallestMargin = 1e-7;
+constexpr double kLargestMargin = 4.0;
+/// The margin shrinks above and grows below these candidate counts.
+constexpr size_t kManyCandidates = 16;
+constexpr size_t kFewCandidates = 4;
+/// Distance of a new ball's centre ahead of the proxy, in margins.
+constexpr double kAhead = 0.5;
+constexpr double kLasting = 2.0;
+
+} // namespace
+
+bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {
+    const auto within = [&](auto bounds) {
+        return cache.gather(scene_.objects, motions_, bounds, state_.reference, centre, radius,
+                            &cache == &state_.candidates ? CandidateCache::Frame::Same
+                                                         : CandidateCache::Frame::Another);
+    };
+    return motions_.data() == scene_.restMotions.data()
+               ? within(std::span<const glm::dvec4>(scene_.restSpheres))
+               : within(std::span<const double>(scene_.boundingRadii));
+}
+
+/// Gathers all triangles that a proxy moving by `length` along `direction` could touch, or within the HIP's
+/// travel in this tick if that is less: a long move that a near surface ends must not gather what lies behind
+/// it. Returns the covered distance; negative if not even the place itself can be covered.
+double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
+    const double reach = radius_ + kContactReach;
+    const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
+    // A ball gathered in free motion may hold thousands of triangles, of little use after contact.
+    const double ball = state_.candidates.radius();
+    const bool crowded =
+        state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + kLasting * travel_);
+    if (crowded) {
+        state_.gatherMargin = 0.25 * ball;
+    } else {
+        const double known = state_.candidates.freeAlong(state_.proxy, direction, reach);
+        if (known >= wanted)
+            return known;
+    }
+    constexpr int kAttempts = 16;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const double margin = state_.gatherMargin;
+        // The ball lies ahead of the hand, where it stays valid for longer.
+        const glm::dvec3 centre = state_.proxy + kAhead * margin * heading_;
+        const bool fits = gather(state_.candidates, centre, reach + margin);
+        const size_t count = state_.candidates.count();
+        double next = margin;
+        if (!fits)
+            next = 0.25 * margin;
+        else if (count > kManyCandidates)
+            next = 0.5 * margin;
+        else if (count == 0)
+            next = 4.0 * margin;
+        else if (count < kFewCandidates)
+            next = 1.5 * margin;
+        // However dense the mesh, a ball that does not last for two ticks of this motion costs more than it
+        // saves. A hand at rest has shrunk it to nothing: it must grow again, while four times the ball still
+        // holds, or the proxy would creep.
+        const double growth = 16 * count <= CandidateCache::kCapacity ? 4.0 : 1.0;
+        const double lasting = fits ? std::min(kLasting * travel_, growth * margin) : 0.0;
+        const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
+        state_.gatherMargin = std::clamp(next, least, kLargestMargin);
+        if (fits)
+            return state_.candidates.freeAlong(state_.proxy, direction, reach);
+    }
+    rest_.flags = rest_.flags | TickFlag::CandidatesFull;
+    return -1.0;
+}
+
+} // namespace touchstone
