@@ -91,8 +91,7 @@ void BodyWorld::finish() {
     for (size_t b = 0; b < count; ++b)
         outgoing_.workspaceFromBody[b] = states_[b].pose;
     publication_ = std::make_shared<BodyPublication>(outgoing_);
-    for (Kept& kept : kept_)
-        kept.bytes.resize(stateCapacity());
+    kept_.resize(stateCapacity());
     for (BodyState& state : states_)
         state.awake = false;
     wakeAll();
@@ -139,20 +138,19 @@ BodyWorld::Touch& BodyWorld::touchOf(int body) noexcept {
     return touch;
 }
 
-void BodyWorld::push(int object, const glm::dvec3& point, const glm::dvec3& force,
-                     double stiffness) noexcept {
+void BodyWorld::push(int object, const HandPush& push) noexcept {
     const int body = bodyOfObject_[static_cast<size_t>(object)];
-    if (body < 0 || force == glm::dvec3(0.0))
+    if (body < 0 || push.force == glm::dvec3(0.0))
         return;
     const auto b = static_cast<size_t>(body);
     if (masses_[b].inverse == 0.0)
         return;
     wake(body);
     Touch& touch = touchOf(body);
-    touch.force += force;
-    touch.torque += glm::cross(point - states_[b].pose.position, force);
-    touch.point = point;
-    touch.stiffness += stiffness;
+    touch.force += push.force;
+    touch.torque += glm::cross(push.point - states_[b].pose.position, push.force);
+    touch.point = push.point;
+    touch.stiffness += push.stiffness;
 }
 
 void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
@@ -161,6 +159,23 @@ void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
         return;
     wake(body);
     touchOf(body).torque += torque;
+}
+
+/// The part of the hands' force that pushes a body: the spring between hand and body at the end of the step,
+/// implicit along the force. A body that is so light that the spring's rate is beyond the step's is never
+/// pushed by all of it but by Euler.
+double BodyWorld::partOf(const Touch& touch, int body, BodyIntegrator integrator, double dt) const noexcept {
+    const double size = glm::length(touch.force);
+    if (!(size > 0.0))
+        return 1.0;
+    const auto b = static_cast<size_t>(body);
+    const BodyMass& mass = masses_[b];
+    const BodyState& state = states_[b];
+    const glm::dvec3 along = touch.force / size, lever = touch.point - state.pose.position;
+    const glm::dvec3 arm = glm::cross(lever, along);
+    const double rate =
+        dt * dt * touch.stiffness * (mass.inverse + glm::dot(arm, turned(mass, state.pose.rotation, arm)));
+    return integrator == BodyIntegrator::Implicit || rate > 1.0 ? 1.0 / (1.0 + rate) : 1.0;
 }
 
 void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) noexcept {
@@ -197,19 +212,7 @@ void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) 
         const BodyMass& mass = masses_[b];
         BodyState& state = states_[b];
         if (state.awake) {
-            // The spring between hand and body at the end of the step: implicit along the force. A body that
-            // is so light that the spring's rate is beyond the step's is never pushed explicitly but by
-            // Euler.
-            double part = 1.0;
-            const double size = glm::length(touch.force);
-            if (!euler && size > 0.0) {
-                const glm::dvec3 along = touch.force / size;
-                const glm::dvec3 arm = glm::cross(touch.point - state.pose.position, along);
-                const double rate = dt * dt * touch.stiffness *
-                                    (mass.inverse + glm::dot(arm, turned(mass, state.pose.rotation, arm)));
-                if (integrator == BodyIntegrator::Implicit || rate > 1.0)
-                    part = 1.0 / (1.0 + rate);
-            }
+            const double part = euler ? 1.0 : partOf(touch, body, integrator, dt);
             state.velocity += part * dt * mass.inverse * touch.force;
             state.spin += part * dt * turned(mass, state.pose.rotation, touch.torque);
             state.quiet = 0.0;
@@ -564,26 +567,8 @@ bool BodyWorld::restore(std::span<const std::byte> bytes) noexcept {
 }
 
 void BodyWorld::keep(uint64_t tick) noexcept {
-    Kept& kept = kept_[nextKept_];
-    if (kept.full.load(std::memory_order_acquire)) {
+    if (!kept_.keep(tick, [&](std::span<std::byte> bytes) { return save(bytes); }))
         earliest_ = tick_; // as in a replay, whether it is recorded or not
-        return;
-    }
-    kept.tick = tick;
-    kept.size = save(kept.bytes);
-    kept.full.store(true, std::memory_order_release);
-    nextKept_ = (nextKept_ + 1) % kKept;
-}
-
-bool BodyWorld::takeKept(uint64_t& tick, std::vector<std::byte>& bytes) {
-    Kept& kept = kept_[nextTaken_];
-    if (!kept.full.load(std::memory_order_acquire))
-        return false;
-    tick = kept.tick;
-    bytes.assign(kept.bytes.begin(), kept.bytes.begin() + static_cast<ptrdiff_t>(kept.size));
-    kept.full.store(false, std::memory_order_release);
-    nextTaken_ = (nextTaken_ + 1) % kKept;
-    return true;
 }
 
 double BodyWorld::energy(double gravity) const noexcept {

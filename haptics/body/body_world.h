@@ -2,17 +2,17 @@
 // The rigid bodies of a scene: moved at the servo's rate by the hands' forces, gravity, joints and contacts
 // among them (docs/bodies.md).
 
+#include "engine/exchange/kept_states.h"
 #include "engine/exchange/triple_buffer.h"
 #include "engine/scene/scene.h"
 #include "haptics/body/body_solver.h"
 #include "haptics/body/contact_finder.h"
 #include "haptics/body/finder_thread.h"
+#include "haptics/body/hand_push.h"
 #include "haptics/body/rigid_body.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 
-#include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -56,9 +56,7 @@ class BodyWorld {
     [[nodiscard]] static std::shared_ptr<BodyWorld> make(const Scene& scene, const HapticScene& haptic,
                                                          std::vector<Warning>* warnings = nullptr);
 
-    /// Force (N) on an object at a point, both in the workspace. `stiffness`: N/m, of the touch that exerts
-    /// it.
-    void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
+    void push(int object, const HandPush& push) noexcept;
     /// Torque (N m, workspace) on the same object.
     void turn(int object, const glm::dvec3& torque) noexcept;
     /// The body of a haptic object; -1: none.
@@ -101,7 +99,7 @@ class BodyWorld {
     /// Servo: keeps the state before `tick` for another thread; dropped where that one does not keep up.
     void keep(uint64_t tick) noexcept;
     /// Another thread: the kept states in order; false where there is none.
-    bool takeKept(uint64_t& tick, std::vector<std::byte>& bytes);
+    bool takeKept(uint64_t& tick, std::vector<std::byte>& bytes) { return kept_.take(tick, bytes); }
 
     [[nodiscard]] std::span<const BodyState> states() const noexcept { return states_; }
     [[nodiscard]] std::span<BodyState> states() noexcept { return states_; }
@@ -132,6 +130,8 @@ class BodyWorld {
     void adopt(const FinderOutput& output) noexcept;
     void sleep(int body) noexcept;
     [[nodiscard]] Touch& touchOf(int body) noexcept;
+    [[nodiscard]] double partOf(const Touch& touch, int body, BodyIntegrator integrator,
+                                double dt) const noexcept;
     [[nodiscard]] int islandOf(int body) noexcept;
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
     void fillInput(FinderInput& input) const noexcept;
@@ -169,15 +169,7 @@ class BodyWorld {
     std::vector<FinderInput> history_; ///< Replayed: of the last kHistory ticks
     std::shared_ptr<BodyPublication> publication_;
     BodyPoses outgoing_;
-    struct Kept {
-        std::atomic<bool> full{false};
-        uint64_t tick = 0;
-        size_t size = 0;
-        std::vector<std::byte> bytes;
-    };
-    static constexpr size_t kKept = 8;
-    std::array<Kept, kKept> kept_;
-    size_t nextKept_ = 0, nextTaken_ = 0; ///< servo's, the other thread's
+    KeptStates kept_;
     Finding finding_ = Finding::InStep;
     static constexpr uint64_t kHistory = 64;
     uint64_t tick_ = 0, earliest_ = 0; ///< of the next beginTick; results for earlier poses are dropped

@@ -45,7 +45,12 @@ Hold holdBody(BodyWorld& bodies, ObjectMotions motions, const Grasp& grasp, cons
     const double damping = std::min(
         {2.0 * kRatio * std::sqrt(stiffness / mass.inverse), 0.2 / (mass.inverse * dt), kMaxDamping});
     hold.force = limited(stiffness * (hold.place - hip) + damping * (moves - velocity), limits.maxForce);
-    bodies.push(grasp.object, hold.place, -hold.force, stiffness);
+    // Its damper is in the force: the spring alone would not be at the step's end.
+    bodies.push(grasp.object, {.point = hold.place,
+                               .force = -hold.force,
+                               .velocity = moves,
+                               .stiffness = stiffness,
+                               .most = limits.maxForce});
 
     const glm::dvec3 back = turnOf(grasp.rotation * glm::conjugate(pose.rotation));
     const glm::dvec3 wanted = kTurnRate * kTurnRate * back - 2.0 * kRatio * kTurnRate * state.spin;

@@ -161,6 +161,10 @@ SoftSolver::SoftSolver(const SoftBody& law, const SoftShape& shape, double scale
     body.m_cfg.kMT = static_cast<btScalar>(
         jelly ? std::min(std::pow(2.0 * std::numbers::pi * law.shapeFrequency * kStep, 2.0), 1.0) : 0.0);
     body.setPose(jelly, jelly);
+    // Lengths and areas at rest are those of now. Bullet would take them again from the first state that it
+    // steps, which in a replay that begins in the middle is a deformed one.
+    body.updateConstants();
+    body.m_bUpdateRtCst = false;
     bullet_->restVolume = std::abs(static_cast<double>(body.getVolume()));
     if (jelly && law.volumeStiffness > 0.0 && bullet_->restVolume > 0.0) {
         // Pressure K (V0 - V) / V0 in Bullet's units: 1 Pa = 1/100 kg / (cm s²). Its stiffest motion has

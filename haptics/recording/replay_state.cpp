@@ -44,9 +44,11 @@ void Replayer::putDriven(const RecordedTick& tick, Touched& touched) const {
             throw Error("recording", "", "moves an object that its scene does not have",
                         "the file is damaged, or its scene is another one now");
     if (touched.world.driven() == nullptr)
-        touched.world =
-            WorldState(touched.scene.source, *touched.scene.haptic, WorldBodies::Simulated,
-                       touched.world.bodies(), touched.world.textures(), std::make_shared<DrivenObjects>());
+        touched.world = WorldState(touched.scene.source, *touched.scene.haptic, WorldBodies::Simulated,
+                                   {.bodies = touched.world.bodies(),
+                                    .soft = touched.world.soft(),
+                                    .textures = touched.world.textures(),
+                                    .driven = std::make_shared<DrivenObjects>()});
     touched.world.driven()->restore(state->second);
 }
 

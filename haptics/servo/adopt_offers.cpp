@@ -4,7 +4,7 @@
 #include "haptics/proxy/place_proxy.h"
 #include "haptics/proxy/take_up_part.h"
 #include "haptics/servo/servo_touch.h"
-#include "haptics/world/soft_objects.h"
+#include "haptics/world/soft_states.h"
 
 #include <algorithm>
 #include <cmath>

@@ -189,7 +189,7 @@ class ServoLoop {
     [[nodiscard]] const body::BodyPoses* bodyPoses();
     /// Owner thread: the soft bodies of the newest scene, whose publication is for the eye; null: it has
     /// none.
-    [[nodiscard]] SoftObjects* soft() const { return soft_.get(); }
+    [[nodiscard]] SoftStates* soft() const { return soft_.get(); }
     /// Any thread: N s, BodyWorld::impact of the newest tick.
     [[nodiscard]] const std::atomic<double>& impact() const { return impact_; }
     /// Owner thread: the newest dents of each hand, for the eye.
@@ -279,7 +279,7 @@ class ServoLoop {
     std::shared_ptr<const HapticScene> lastScene_; // of offeredLast_
     std::shared_ptr<const Offer> waiting_;         // the scene that was offered before `start`
     std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
-    std::shared_ptr<SoftObjects> soft_;       // of the scene offered last; the servo's but for publications
+    std::shared_ptr<SoftStates> soft_;        // of the scene offered last; the servo's but for publications
     bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
     std::deque<std::pair<uint32_t, std::shared_ptr<PersistentTextures>>> textures_; // by scene offered
     std::deque<std::pair<uint32_t, std::shared_ptr<DrivenObjects>>> driven_;        // the same

@@ -5,7 +5,7 @@
 #include "haptics/proxy/take_up_part.h"
 #include "haptics/servo/servo_loop.h"
 #include "haptics/texture/persistent_textures.h"
-#include "haptics/world/soft_objects.h"
+#include "haptics/world/soft_states.h"
 
 #include <algorithm>
 #include <utility>
@@ -41,9 +41,12 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     }
     if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get()))
         swap = SceneSwap::Anew;
-    const bool goesOn = swap != SceneSwap::Anew;
-    WorldState world(std::move(source), *scene, WorldBodies::Simulated, goesOn ? bodies_ : nullptr,
-                     goesOn ? newestTextures() : nullptr, driven);
+    if (!softGoOn(soft_.get(), source.get(), *scene))
+        swap = SceneSwap::Anew; // one is hidden, or shown again
+    CarriedOver goesOn{.driven = driven};
+    if (swap != SceneSwap::Anew)
+        goesOn = {bodies_, soft_, newestTextures(), driven};
+    WorldState world(std::move(source), *scene, WorldBodies::Simulated, std::move(goesOn));
     if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
         world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
     bodies_ = world.bodies();
@@ -92,8 +95,8 @@ ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, Wo
 void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
     if (swap == SceneSwap::OtherPart && !canTakeUpPart(scene.source.get()))
         swap = SceneSwap::Anew;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, bodies_,
-                     newestTextures());
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
+                     {.bodies = bodies_, .textures = newestTextures()});
     holdTextures(scene.root, world);
     Offer offer = offerOf(std::move(scene.scene), std::move(world), scene.number, swap);
     offeredLast_ = offer.root = scene.root;
@@ -104,8 +107,8 @@ void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
 void ServoLoop::offerEdited(ReshapedScene scene) {
     // Read where there are bodies alone: another thread may offer edits.
     const bool moves = scene.source != nullptr && scene.source->physics != nullptr;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, moves ? bodies_ : nullptr,
-                     newestTextures());
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
+                     {.bodies = moves ? bodies_ : nullptr, .textures = newestTextures()});
     edited_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number, 0u,
                                                 scene.root, std::move(scene.reshaped), scene.oldestEdit));
 }

@@ -62,7 +62,7 @@ template <class Solver, class Stopwatch>
 
 /// In the workspace, as much of it as the device bears. Pushes the objects that are touched.
 inline void publishForce(const HandTick& tick, const Similarity& workspaceFromReference, const Felt& felt,
-                         WorldState& world, HapticOutput& output) {
+                         const glm::dvec3& travel, WorldState& world, HapticOutput& output) {
     if (tick.limits.press < INFINITY) [[unlikely]]
         output.borne = yieldingShare(felt.share * felt.force, tick.limits.press);
     const double share = felt.share * output.borne;
@@ -70,8 +70,10 @@ inline void publishForce(const HandTick& tick, const Similarity& workspaceFromRe
     if (share < 1.0)
         output.force *= share;
     if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
-        pushObjects(workspaceFromReference, felt.force, bornByDevice(tick, felt, share), felt.stiffness,
-                    tick.limits.maxForce, *tick.parts, world);
+        pushObjects(
+            workspaceFromReference, felt.force, bornByDevice(tick, felt, share),
+            {.velocity = travel / tick.dt, .stiffness = felt.stiffness, .most = tick.limits.maxForce},
+            *tick.parts, world);
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.
@@ -119,7 +121,7 @@ template <class Solver, class Stopwatch>
     const bool varied = effects || (activeSet.count > 1 && !feltAsOne(tick, false, rest, activeSet));
     const Felt felt = varied ? feelEffects(tick, hip, held, activeSet, proxy, state, output, stopwatch)
                              : feltForce<false>(tick, hip, held, activeSet, proxy, state, output, stopwatch);
-    publishForce(tick, workspaceFromReference, felt, world, output);
+    publishForce(tick, workspaceFromReference, felt, state.travel, world, output);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
     // The object touched now becomes the reference object. A proxy surrounded by more triangles than a tick

@@ -20,13 +20,15 @@ bool holdsOn(const HapticSettings& settings, const DeviceSample& sample) {
 } // namespace
 
 void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force, double share,
-                 double stiffness, double most, ContactForces& parts, WorldState& world) {
+                 body::HandPush hand, ContactForces& parts, WorldState& world) {
     if (!std::isfinite(force.x + force.y + force.z))
         return;
     parts.complete(force);
-    for (size_t i = 0; i < parts.count; ++i)
-        world.push(parts.object[i], workspaceFromReference.point(parts.point[i]),
-                   -share * workspaceFromReference.direction(parts.force[i]), stiffness, most);
+    for (size_t i = 0; i < parts.count; ++i) {
+        hand.point = workspaceFromReference.point(parts.point[i]);
+        hand.force = -share * workspaceFromReference.direction(parts.force[i]);
+        world.push(parts.object[i], hand);
+    }
 }
 
 void resistTool(const HandTick& tick, const LiveTool& tool, const DeviceState& state, WorldState& world,
@@ -44,7 +46,7 @@ void resistTool(const HandTick& tick, const LiveTool& tool, const DeviceState& s
                              output.zoom;
     output.force += force;
     if (tick.parts != nullptr && std::isfinite(force.x + force.y + force.z))
-        world.push(object, output.hip, -force, 0.0, tick.limits.maxForce); // a damper
+        world.push(object, {.point = output.hip, .force = -force, .most = tick.limits.maxForce}); // a damper
 }
 
 bool hold(const HandTick& tick, const DeviceSample& sample, bool sampled, WorldState& world,

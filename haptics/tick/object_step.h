@@ -8,9 +8,10 @@
 namespace touchstone {
 
 /// The forces on the objects that the hand touches are the opposite of those on the hand. A force that is not
-/// finite ends at the hand's safety stage.
+/// finite ends at the hand's safety stage. `hand`: its velocity, stiffness and most; `share` of the force is
+/// exerted.
 [[gnu::noinline]] void pushObjects(const Similarity& workspaceFromReference, const glm::dvec3& force,
-                                   double share, double stiffness, double most, ContactForces& parts,
+                                   double share, body::HandPush hand, ContactForces& parts,
                                    WorldState& world);
 
 /// The fraction of a contact's force with which the hand pushes: no more than its device can exert.

@@ -69,15 +69,13 @@ void DeformingObjects::add(const HapticScene& haptic, size_t k, const Instance& 
         source[own->indices[i]] = mesh.sources[own->sourceIndices[i]];
     const glm::dmat3 linear(own->objectFromMesh);
     const bool invertible = std::abs(glm::determinant(linear)) > 0.0;
-    Deformed made{.object = k,
-                  .own = own,
-                  .source = std::move(source),
-                  .mesh = &mesh,
-                  .vertices = DeformedVertices(*mesh.deformation),
-                  .normalFromMesh = invertible ? glm::transpose(glm::inverse(linear)) : glm::dmat3(1.0),
-                  .instant = {},
-                  .jumps = false};
-    deformed_.push_back(std::move(made));
+    DeformedVertices vertices(*mesh.deformation);
+    deformed_.push_back(
+        {.moved = {}, .source = std::move(source), .mesh = &mesh, .vertices = std::move(vertices)});
+    Deformed& made = deformed_.back();
+    made.moved.object = k;
+    made.moved.own = own;
+    made.normalFromMesh = invertible ? glm::transpose(glm::inverse(linear)) : glm::dmat3(1.0);
     scene_->objects[k] = own;
 }
 
@@ -86,13 +84,14 @@ void DeformingObjects::addSlots(size_t count) {
         auto slot = std::make_unique<Slot>();
         for (const Deformed& deformed : deformed_) {
             Part& part = slot->parts.emplace_back();
-            const size_t normals =
-                deformed.own->anySmooth && deformed.mesh->normalsFromFile ? deformed.own->normals.size() : 0;
+            const size_t normals = deformed.moved.own->anySmooth && deformed.mesh->normalsFromFile
+                                       ? deformed.moved.own->normals.size()
+                                       : 0;
             for (auto* positions : {&part.from, &part.to})
                 positions->resize(deformed.source.size());
             for (auto* directions : {&part.normalsFrom, &part.normalsTo})
                 directions->resize(normals);
-            part.tree = deformed.own->tree;
+            part.interval.tree = deformed.moved.own->tree;
         }
         slots_.push_back(std::move(slot));
     }
@@ -116,7 +115,7 @@ void DeformingObjects::evaluate(double time, size_t p, std::vector<glm::vec3>& p
     Deformed& deformed = deformed_[p];
     pose_.evaluate(*source_, animation_, time);
     deformed.vertices.pose(pose_);
-    const glm::dmat4& objectFromMesh = deformed.own->objectFromMesh;
+    const glm::dmat4& objectFromMesh = deformed.moved.own->objectFromMesh;
     for (size_t v = 0; v < positions.size(); ++v)
         positions[v] = glm::vec3(
             glm::dvec3(objectFromMesh * glm::dvec4(deformed.vertices.position(deformed.source[v]), 1.0)));
@@ -156,13 +155,7 @@ void DeformingObjects::fill(Slot& slot, int64_t interval) noexcept {
         } else {
             evaluate(gridTime(interval + 1), p, part.to, part.normalsTo);
         }
-        part.longest = part.radius = 0.0;
-        for (size_t v = 0; v < part.from.size(); ++v) {
-            const glm::dvec3 from(part.from[v]), to(part.to[v]);
-            part.longest = std::max(part.longest, glm::distance(from, to));
-            part.radius = std::max({part.radius, glm::length(from), glm::length(to)});
-        }
-        part.tree.refit(part.from, part.to, deformed_[p].own->indices);
+        part.interval.fit(part.from, part.to, deformed_[p].moved.own->indices);
     }
     slot.interval.store(interval, std::memory_order_relaxed);
 }
@@ -198,15 +191,15 @@ double DeformingObjects::travelOf(size_t p) const noexcept {
     const Part &from = before_->parts[p], &to = now_->parts[p];
     const int64_t step = moment_.interval - previous_.interval;
     if (step == 0)
-        return std::abs(moment_.fraction - previous_.fraction) * to.longest;
+        return std::abs(moment_.fraction - previous_.fraction) * to.interval.longest;
     if (step == 1)
-        return (1.0 - previous_.fraction) * from.longest + moment_.fraction * to.longest;
+        return (1.0 - previous_.fraction) * from.interval.longest + moment_.fraction * to.interval.longest;
     if (step == -1)
-        return previous_.fraction * from.longest + (1.0 - moment_.fraction) * to.longest;
-    const MeshInstant& instant = deformed_[p].instant;
+        return previous_.fraction * from.interval.longest + (1.0 - moment_.fraction) * to.interval.longest;
+    const VertexBlend before = from.at(previous_.fraction).places, now = to.at(moment_.fraction).places;
     double longest = 0.0;
     for (size_t v = 0; v < to.from.size(); ++v)
-        longest = std::max(longest, glm::distance(instant.before.at(v), instant.now.at(v)));
+        longest = std::max(longest, glm::distance(before.at(v), now.at(v)));
     return longest;
 }
 
@@ -216,23 +209,12 @@ void DeformingObjects::stepTo(const Moment& moment, bool jumps, bool begins,
     moment_ = moment;
     for (size_t p = 0; p < deformed_.size(); ++p) {
         Deformed& deformed = deformed_[p];
-        MeshInstant& instant = deformed.instant;
-        const Part &part = now_->parts[p], &was = before_->parts[p];
         const bool still = begins || (jumps && deformed.jumps);
-        instant.now = {part.from.data(), part.to.data(), moment_.fraction};
-        instant.before =
-            still ? instant.now : VertexBlend{was.from.data(), was.to.data(), previous_.fraction};
-        instant.normals = part.normalsFrom.empty()
-                              ? VertexBlend{}
-                              : VertexBlend{part.normalsFrom.data(), part.normalsTo.data(), moment_.fraction};
-        instant.tree = &part.tree;
-        // Blends round: 1e-15 covers it.
-        instant.travel = still ? 0.0 : travelOf(p) * (1.0 + 1e-12) + 1e-15;
-        deformed.own->instant = &instant;
-        deformed.own->boundingRadius = scene_->boundingRadii[deformed.object] =
-            std::max(part.radius, still ? 0.0 : was.radius) * (1.0 + 1e-12);
+        const MeshMoment now = now_->parts[p].at(moment_.fraction);
+        deformed.moved.step(*scene_, still ? now : before_->parts[p].at(previous_.fraction), now,
+                            still ? 0.0 : travelOf(p), !still);
         if (!motions.empty() && jumps && deformed.jumps && !begins)
-            motions[deformed.object].jumped = true;
+            motions[deformed.moved.object].jumped = true;
     }
 }
 
@@ -263,7 +245,7 @@ void DeformingObjects::advance(double time, bool begins, bool hold,
     stepTo(moment, jumps, begins || late, motions);
     for (const Deformed& deformed : deformed_)
         if (late && !motions.empty())
-            motions[deformed.object].jumped = true;
+            motions[deformed.moved.object].jumped = true;
 }
 
 void DeformingObjects::addTo(Hash64& hash) const noexcept {

@@ -8,6 +8,7 @@
 #include "engine/scene/mesh_deformation.h"
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
+#include "haptics/world/mesh_interval.h"
 
 #include <atomic>
 #include <cstdint>
@@ -53,9 +54,14 @@ class DeformingObjects {
     /// One object's vertices at both ends of an interval of the grid.
     struct Part {
         std::vector<glm::vec3> from, to, normalsFrom, normalsTo; // object frame
-        TriangleTree tree;
-        double longest = 0.0; // way of a vertex in the interval
-        double radius = 0.0;  // about the object's origin, of both ends
+        MeshInterval interval;
+
+        [[nodiscard]] MeshMoment at(double fraction) const noexcept {
+            return {&interval,
+                    {from.data(), to.data(), fraction},
+                    normalsFrom.empty() ? VertexBlend{}
+                                        : VertexBlend{normalsFrom.data(), normalsTo.data(), fraction}};
+        }
     };
     /// Who may touch a slot. The servo takes Ready ones only and gives them back.
     enum class Use : uint8_t { Empty, Writing, Ready, Held };
@@ -66,13 +72,11 @@ class DeformingObjects {
     };
     /// An object that deforms.
     struct Deformed {
-        size_t object = 0; // HapticScene::objects
-        std::shared_ptr<HapticObject> own;
+        MovedMesh moved;
         std::vector<uint32_t> source; // by welded vertex: vertex of the deformation
         const Mesh* mesh = nullptr;
         DeformedVertices vertices;
         glm::dmat3 normalFromMesh{1.0};
-        MeshInstant instant;
         bool jumps = false; // the animation does not end where it begins
     };
     /// A place on the grid.

@@ -1,433 +1,50 @@
 #include "haptics/world/soft_objects.h"
 
-#include "engine/core/float_mode.h"
-#include "haptics/world/deformation_of.h"
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstring>
+#include <utility>
 
 namespace touchstone {
 
-namespace {
-
-constexpr double kUnitsPerMetre = 100.0; // of SoftState
-constexpr double kInterval = 1.0 / body::kSoftRate;
-/// SoftState::calm of a body whose last states are all the same.
-constexpr uint32_t kLongAsleep = body::kSoftCalm + 6;
-constexpr auto kPause = std::chrono::microseconds(400);
-
-const SoftBody* softBodyOf(const Scene& scene, const HapticObject& object) {
-    const MeshDeformation* const deformation = deformationOf(scene, object);
-    return deformation != nullptr ? deformation->soft.get() : nullptr;
+std::unique_ptr<SoftObjects> SoftObjects::of(const ScenePtr& source, const HapticScene& haptic,
+                                             std::shared_ptr<SoftStates> goOn) {
+    const std::vector<size_t> objects = softObjects(source.get(), haptic);
+    if (objects.empty())
+        return nullptr;
+    const bool goesOn = goOn != nullptr && goOn->fit(*source, haptic, objects);
+    std::unique_ptr<SoftObjects> made(new SoftObjects(
+        haptic, goesOn ? std::move(goOn) : std::make_shared<SoftStates>(*source, haptic, objects)));
+    if (!goesOn)
+        made->step(true); // nobody else has them yet
+    return made;
 }
 
-/// Without the spare ones.
-size_t verticesOf(const HapticScene& haptic, const std::vector<size_t>& objects) {
-    size_t vertices = 0;
-    for (const size_t k : objects)
-        vertices += haptic.objects[k]->vertices.size() - 1;
-    return vertices;
-}
-
-/// Bytes after bytes.
-class StateBytes {
-  public:
-    explicit StateBytes(std::byte* at) : at_(at) {}
-    template <class T>
-    void put(const T* values, size_t count) {
-        std::memcpy(at_, values, count * sizeof(T));
-        at_ += count * sizeof(T);
-    }
-
-  private:
-    std::byte* at_;
-};
-
-class StateSource {
-  public:
-    explicit StateSource(const std::byte* at) : at_(at) {}
-    template <class T>
-    void get(T* values, size_t count) {
-        std::memcpy(values, at_, count * sizeof(T));
-        at_ += count * sizeof(T);
-    }
-
-  private:
-    const std::byte* at_;
-};
-
-/// The numbers of a kept state before its pushes and vertices.
-struct Clock {
-    uint64_t interval = 0;
-    double fraction = 0.0, pending = 0.0;
-    uint64_t first = 0;
-};
-
-/// Of a state of one body beside its vertices.
-struct Calm {
-    uint32_t steps = 0;
-    float gravity = 0.0f;
-};
-
-/// States that a moment and the next step depend on: the one before, in which hands felt, and both ends.
-constexpr uint64_t kStates = 3;
-uint64_t keptState(uint64_t interval, uint64_t i) {
-    return std::max<uint64_t>(interval + i, 1) - 1;
-}
-
-} // namespace
-
-std::unique_ptr<SoftObjects> SoftObjects::of(const ScenePtr& source, const HapticScene& haptic) {
-    std::vector<size_t> objects;
-    for (size_t k = 0; source != nullptr && k < haptic.objects.size(); ++k)
-        if (softBodyOf(*source, *haptic.objects[k]) != nullptr &&
-            haptic.objects[k]->vertices.size() - 1 <= kMaxSoftVertices) // without the spare one
-            objects.push_back(k);
-    return objects.empty() ? nullptr : std::unique_ptr<SoftObjects>(new SoftObjects(source, haptic, objects));
-}
-
-SoftObjects::SoftObjects(const ScenePtr& source, const HapticScene& haptic,
-                         const std::vector<size_t>& objects)
-    : scene_(copyOf(haptic)), vertices_(verticesOf(haptic, objects)),
-      publication_(std::vector<glm::vec3>(vertices_)) {
-    for (const size_t k : objects)
-        add(*source, haptic, k);
-    for (uint64_t state : {0, 1})
-        for (size_t b = 0; b < bodies_.size(); ++b)
-            publishState(state, b);
-    for (size_t b = 0; b < bodies_.size(); ++b)
-        publishInterval(0, b);
-    made_.store(1, std::memory_order_relaxed);
-    asked_.store(2, std::memory_order_relaxed);
-    show(1);
-    for (Kept& kept : kept_)
-        kept.bytes.resize(stateSize());
-    stepTo({}, true);
-}
-
-SoftObjects::~SoftObjects() = default;
-
-void SoftObjects::add(const Scene& source, const HapticScene& haptic, size_t k) {
-    auto own = std::make_shared<HapticObject>(*haptic.objects[k]);
-    const SoftBody& law = *softBodyOf(source, *own);
-    const Similarity& workspaceFromObject = haptic.restMotions[k].workspaceFromObject;
-    const Similarity sceneFromWorkspace = haptic.workspaceFromScene.inverse();
-    body::SoftShape shape;
-    shape.triangles = own->indices;
-    for (size_t v = 0; v + 1 < own->vertices.size(); ++v) { // without the spare one
-        const glm::dvec3 place = workspaceFromObject.point(glm::dvec3(own->vertices[v]));
-        shape.vertices.push_back(place);
-        const glm::dvec3 stated = sceneFromWorkspace.point(place);
-        shape.fixed.push_back(law.fixedLow && glm::all(glm::greaterThanEqual(stated, *law.fixedLow)) &&
-                                      glm::all(glm::lessThanEqual(stated, *law.fixedHigh))
-                                  ? 1
-                                  : 0);
-    }
-    for (const int instance : law.over) {
-        const Instance& placed = source.instances[static_cast<size_t>(instance)];
-        std::vector<glm::dvec3>& hull = shape.hulls.emplace_back();
-        for (const glm::vec3& p : source.meshes[static_cast<size_t>(placed.mesh)].positions)
-            hull.push_back(haptic.workspaceFromScene.point(
-                glm::dvec3(placed.sceneFromMesh * glm::dvec4(glm::dvec3(p), 1.0))));
-    }
-    Soft soft;
-    soft.object = k;
-    soft.own = own;
-    soft.solver = std::make_unique<body::SoftSolver>(law, shape, haptic.workspaceFromScene.scale);
-    const size_t normals = own->anySmooth ? own->normals.size() : 0;
-    soft.source.assign(normals, 0);
-    soft.normals.resize(shape.vertices.size());
-    for (size_t i = 0; i < own->indices.size() && normals > 0; ++i)
-        soft.source[own->sourceIndices[i]] = own->indices[i];
-    for (std::vector<Part>& state : ring_)
-        state.push_back({.state = soft.solver->rest(),
-                         .vertices = std::vector<glm::vec3>(shape.vertices.size()),
-                         .normals = std::vector<glm::vec3>(normals),
-                         .tree = own->tree});
-    shown_.push_back({k, shape.vertices.size()});
-    scene_->objects[k] = own;
-    bodies_.push_back(std::move(soft));
-}
-
-/// The vertices and normals of a state.
-void SoftObjects::publishState(uint64_t state, size_t b) noexcept {
-    Soft& soft = bodies_[b];
-    Part& at = part(state, b);
-    const Similarity objectFromWorkspace = scene_->restMotions[soft.object].workspaceFromObject.inverse();
-    for (size_t v = 0; v < at.vertices.size(); ++v)
-        at.vertices[v] =
-            glm::vec3(objectFromWorkspace.point(glm::dvec3(at.state.places[v]) / kUnitsPerMetre));
-    if (at.normals.empty())
-        return;
-    std::ranges::fill(soft.normals, glm::vec3(0.0f));
-    const std::vector<uint32_t>& indices = soft.own->indices;
-    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::vec3& a = at.vertices[indices[i]];
-        const glm::vec3 twice = glm::cross(at.vertices[indices[i + 1]] - a, at.vertices[indices[i + 2]] - a);
-        for (size_t corner = i; corner < i + 3; ++corner)
-            soft.normals[indices[corner]] += twice;
-    }
-    for (size_t v = 0; v < at.normals.size(); ++v) {
-        const glm::vec3& sum = soft.normals[soft.source[v]];
-        const float length = glm::length(sum);
-        at.normals[v] = length > 0.0f ? sum / length : glm::vec3(0.0f);
+SoftObjects::SoftObjects(const HapticScene& haptic, std::shared_ptr<SoftStates> states)
+    : scene_(copyOf(haptic)), states_(std::move(states)) {
+    for (const SoftStates::Shown& shown : states_->shown()) {
+        auto own = std::make_shared<HapticObject>(*haptic.objects[shown.object]);
+        scene_->objects[shown.object] = own;
+        meshes_.push_back({.object = shown.object, .own = std::move(own), .instant = {}});
     }
 }
 
-/// The tree of the interval between a state and the next.
-void SoftObjects::publishInterval(uint64_t interval, size_t b) noexcept {
-    Part& at = part(interval, b);
-    const std::vector<glm::vec3>&from = at.vertices, &to = part(interval + 1, b).vertices;
-    at.longest = at.radius = 0.0;
-    for (size_t v = 0; v < from.size(); ++v) {
-        const glm::dvec3 a(from[v]), z(to[v]);
-        at.longest = std::max(at.longest, glm::distance(a, z));
-        at.radius = std::max({at.radius, glm::length(a), glm::length(z)});
-    }
-    at.tree.refit(from, to, bodies_[b].own->indices);
-}
-
-void SoftObjects::make(uint64_t state) noexcept {
-    std::array<body::SoftPush, kPushes> pushes;
-    bool moved = false;
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-        size_t count = 0;
-        for (uint64_t i = 0; i < given_.count; ++i)
-            if (given_.pushes[i].body == b)
-                pushes[count++] = given_.pushes[i].push;
-        const uint64_t felt = std::max<uint64_t>(state, 3) - 3;
-        body::SoftState& next = part(state, b).state;
-        bodies_[b].solver->step(part(state - 1, b).state, part(felt, b).state, part(state - 2, b).state,
-                                std::span(pushes).first(count), given_.gravity, state, next);
-        // All states of the ring are the one in which it fell asleep.
-        next.calm = std::min(next.calm + (body::SoftSolver::asleep(next) ? 1u : 0u), kLongAsleep);
-        if (next.calm == kLongAsleep)
-            continue;
-        publishState(state, b);
-        publishInterval(state - 1, b);
-        moved = true;
-    }
-    if (moved)
-        show(state);
-    made_.store(state, std::memory_order_release);
-}
-
-/// For the eye.
-void SoftObjects::show(uint64_t state) noexcept {
-    size_t at = 0;
-    std::vector<glm::vec3>& back = publication_.back();
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-        const std::vector<glm::vec3>& vertices = part(state, b).vertices;
-        std::ranges::copy(vertices, back.begin() + static_cast<std::ptrdiff_t>(at));
-        at += vertices.size();
-    }
-    publication_.publish();
-}
-
-/// `moment_` becomes the previous one, and `moment` the present one.
-void SoftObjects::stepTo(const Moment& moment, bool begins) noexcept {
-    previous_ = begins ? moment : moment_;
-    moment_ = moment;
+void SoftObjects::step(bool begins) noexcept {
     wasStill_ = still_;
     still_ = !begins;
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-        Soft& soft = bodies_[b];
-        const Part &now = part(moment.interval, b), &end = part(moment.interval + 1, b),
-                   &was = part(previous_.interval, b), &wasEnd = part(previous_.interval + 1, b);
-        MeshInstant& instant = soft.instant;
-        instant.now = {now.vertices.data(), end.vertices.data(), moment.fraction};
-        instant.before = {was.vertices.data(), wasEnd.vertices.data(), previous_.fraction};
-        instant.normals = now.normals.empty()
-                              ? VertexBlend{}
-                              : VertexBlend{now.normals.data(), end.normals.data(), moment.fraction};
-        instant.tree = &now.tree;
-        const double travel = previous_.interval == moment.interval
-                                  ? std::abs(moment.fraction - previous_.fraction) * now.longest
-                                  : (1.0 - previous_.fraction) * was.longest + moment.fraction * now.longest;
-        // Also in a tick that is held it moves: what is kept from tick to tick is that of a body that sleeps.
-        const bool moves = now.longest > 0.0 || was.longest > 0.0;
-        instant.travel = moves ? travel * (1.0 + 1e-12) + 1e-15 : 0.0; // blends round
+    for (size_t b = 0; b < meshes_.size(); ++b) {
+        const bool moves = states_->moves(b);
+        MeshMoment now = states_->now(b);
+        if (!meshes_[b].own->anySmooth)
+            now.normals = {};
+        meshes_[b].step(*scene_, states_->before(b), now, states_->travel(b), moves);
         still_ = still_ && !moves;
-        soft.own->instant = &instant;
-        soft.own->boundingRadius = scene_->boundingRadii[soft.object] =
-            std::max(now.radius, was.radius) * (1.0 + 1e-12);
     }
 }
 
 void SoftObjects::advance(bool begins, bool hold, std::span<ObjectMotion> motions) noexcept {
-    for (const Soft& soft : bodies_)
+    const bool first = states_->advance(begins, hold);
+    for (const MovedMesh& mesh : meshes_)
         if (!motions.empty())
-            motions[soft.object].jumped = first_;
-    first_ = false;
-    Moment next{moment_.interval, moment_.fraction + pending_ * body::kSoftRate};
-    pending_ = 0.0;
-    held_ = hold;
-    if (!held_ && next.fraction >= 1.0) {
-        const uint64_t wanted = moment_.interval + 2;
-        if (!apart_ && made_.load(std::memory_order_relaxed) < wanted)
-            make(wanted);
-        held_ = made_.load(std::memory_order_acquire) < wanted;
-    }
-    if (held_)
-        return stepTo(moment_, begins);
-    if (next.fraction >= 1.0) {
-        next = {next.interval + 1, std::min(next.fraction - 1.0, 1.0)};
-        for (uint64_t i = 0; i < gathered_.count; ++i) // now four ticks, now five
-            gathered_.pushes[i].push.share /= std::max(gathered_.steps, 1.0);
-        given_ = gathered_;
-        gathered_.count = 0;
-        gathered_.steps = 0.0;
-        asked_.store(next.interval + 2, std::memory_order_release);
-    }
-    stepTo(next, begins);
-}
-
-void SoftObjects::push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
-                       double most) noexcept {
-    for (uint64_t b = 0; b < bodies_.size(); ++b)
-        if (bodies_[b].object == static_cast<size_t>(object) && gathered_.count < kPushes && stiffness > 0.0)
-            gathered_.pushes[gathered_.count++] = {b, {point, force, stiffness, most, moment_.fraction, 0.0}};
-}
-
-void SoftObjects::integrate(double gravity, double dt) noexcept {
-    pending_ = std::min(dt, kInterval);
-    gathered_.gravity = gravity;
-    gathered_.steps += pending_ * body::kSoftRate;
-    for (uint64_t i = gathered_.count; i-- > 0 && gathered_.pushes[i].push.share == 0.0;)
-        gathered_.pushes[i].push.share = pending_ * body::kSoftRate;
-}
-
-void SoftObjects::addTo(Hash64& hash) const noexcept {
-    hash.add(moment_.interval);
-    hash.add(moment_.fraction);
-    hash.add(held_);
-    for (size_t b = 0; b < bodies_.size(); ++b) {
-        hash.add(part(moment_.interval, b).longest);
-        hash.add(part(moment_.interval, b).radius);
-    }
-}
-
-size_t SoftObjects::stateSize() const noexcept {
-    return sizeof(Clock) + 2 * sizeof(Input) + shown_.size() * kStates * sizeof(Calm) +
-           vertices_ * kStates * 3 * sizeof(glm::vec3);
-}
-
-void SoftObjects::save(std::span<std::byte> bytes) const noexcept {
-    StateBytes to(bytes.data());
-    const Clock clock{moment_.interval, moment_.fraction, pending_, first_ ? 1u : 0u};
-    to.put(&clock, 1);
-    to.put(&gathered_, 1);
-    to.put(&given_, 1);
-    for (uint64_t i = 0; i < kStates; ++i)
-        for (size_t b = 0; b < bodies_.size(); ++b) {
-            const body::SoftState& at = part(keptState(moment_.interval, i), b).state;
-            const Calm calm{at.calm, at.gravity};
-            to.put(&calm, 1);
-            to.put(at.places.data(), at.places.size());
-            to.put(at.velocities.data(), at.velocities.size());
-            to.put(at.anchor.data(), at.anchor.size());
-        }
-}
-
-bool SoftObjects::wellFormed(const Input& input) noexcept {
-    bool sound =
-        input.count <= kPushes && std::isfinite(input.gravity) && input.steps >= 0.0 && input.steps < 1e3;
-    for (uint64_t i = 0; sound && i < input.count; ++i) {
-        const body::SoftPush& push = input.pushes[i].push;
-        sound = std::isfinite(glm::dot(push.point, push.point) + glm::dot(push.force, push.force) +
-                              push.stiffness + push.most) &&
-                push.fraction >= 0.0 && push.fraction <= 1.0 && push.share >= 0.0 && push.share <= 1.0;
-    }
-    return sound;
-}
-
-bool SoftObjects::restore(std::span<const std::byte> bytes) noexcept {
-    if (bytes.size() != stateSize() || apart_)
-        return false;
-    StateSource from(bytes.data());
-    Clock clock;
-    Input gathered, given;
-    from.get(&clock, 1);
-    from.get(&gathered, 1);
-    from.get(&given, 1);
-    if (!(clock.fraction >= 0.0 && clock.fraction <= 1.0 && clock.pending >= 0.0 &&
-          clock.pending <= kInterval && clock.interval < UINT64_MAX - 8 && wellFormed(gathered) &&
-          wellFormed(given)))
-        return false;
-    bool sound = true;
-    for (uint64_t i = 0; i < kStates; ++i)
-        for (size_t b = 0; b < bodies_.size(); ++b) {
-            Calm calm;
-            body::SoftState& at = part(keptState(clock.interval, i), b).state;
-            from.get(&calm, 1);
-            from.get(at.places.data(), at.places.size());
-            from.get(at.velocities.data(), at.velocities.size());
-            from.get(at.anchor.data(), at.anchor.size());
-            // The other states of the ring are not those in which it fell asleep.
-            at.calm = std::min(calm.steps, body::kSoftCalm);
-            at.gravity = calm.gravity;
-            bool finite = std::isfinite(at.gravity);
-            for (size_t v = 0; v < at.places.size(); ++v)
-                finite = finite && std::isfinite(glm::dot(at.places[v], at.places[v]) +
-                                                 glm::dot(at.velocities[v], at.velocities[v]) +
-                                                 glm::dot(at.anchor[v], at.anchor[v]));
-            if (!finite)
-                at = bodies_[b].solver->rest();
-            sound = sound && finite;
-            publishState(keptState(clock.interval, i), b);
-        }
-    gathered_ = sound ? gathered : Input{};
-    given_ = sound ? given : Input{};
-    for (size_t b = 0; b < bodies_.size(); ++b)
-        publishInterval(clock.interval, b);
-    moment_ = {clock.interval, clock.fraction};
-    pending_ = clock.pending;
-    first_ = clock.first != 0;
-    made_.store(clock.interval + 1, std::memory_order_relaxed);
-    asked_.store(clock.interval + 2, std::memory_order_relaxed);
-    stepTo(moment_, true);
-    return sound;
-}
-
-void SoftObjects::keep(uint64_t tick) noexcept {
-    Kept& kept = kept_[keeps_ % kept_.size()];
-    if (kept.full.load(std::memory_order_acquire))
-        return;
-    save(kept.bytes);
-    kept.tick = tick;
-    kept.full.store(true, std::memory_order_release);
-    ++keeps_;
-}
-
-bool SoftObjects::takeKept(uint64_t& tick, std::vector<std::byte>& bytes) {
-    Kept& kept = kept_[takes_ % kept_.size()];
-    if (!kept.full.load(std::memory_order_acquire))
-        return false;
-    bytes = kept.bytes;
-    tick = kept.tick;
-    kept.full.store(false, std::memory_order_release);
-    ++takes_;
-    return true;
-}
-
-void SoftObjects::run(const std::stop_token& stop) noexcept {
-    enterFloatMode(); // the replay's is the same
-    while (!stop.stop_requested()) {
-        const uint64_t wanted = asked_.load(std::memory_order_acquire);
-        if (made_.load(std::memory_order_relaxed) < wanted)
-            make(wanted);
-        else
-            std::this_thread::sleep_for(kPause);
-    }
-}
-
-void SoftObjects::stepApart() {
-    if (thread_.joinable())
-        return;
-    apart_ = true;
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+            motions[mesh.object].jumped = first;
+    step(begins);
 }
 
 } // namespace touchstone

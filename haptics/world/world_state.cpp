@@ -55,29 +55,28 @@ WorldState::~WorldState() = default;
 WorldState::WorldState(WorldState&&) noexcept = default;
 WorldState& WorldState::operator=(WorldState&&) noexcept = default;
 
-WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies,
-                       std::shared_ptr<body::BodyWorld> goOn, std::shared_ptr<PersistentTextures> textures,
-                       std::shared_ptr<DrivenObjects> driven)
+WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies, CarriedOver goesOn)
     : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
-      workspaceFromScene_(haptic.workspaceFromScene), driven_(std::move(driven)) {
+      workspaceFromScene_(haptic.workspaceFromScene), driven_(std::move(goesOn.driven)) {
     if (animation_ != nullptr)
         findMovers(haptic);
     if (driven_ != nullptr)
         motions_ = haptic.restMotions;
     if (bodies == WorldBodies::Simulated)
-        textures_ = persistentTextures(haptic, std::move(textures));
+        textures_ = persistentTextures(haptic, std::move(goesOn.textures));
     if (deforming_ != nullptr)
         own_ = &deforming_->scene();
     else if (bodies == WorldBodies::Simulated)
-        soft_ = SoftObjects::of(scene_, haptic);
+        soft_ = SoftObjects::of(scene_, haptic, std::move(goesOn.soft));
     if (soft_ != nullptr) {
+        softStates_ = soft_->states();
         own_ = &soft_->scene();
         motions_ = haptic.restMotions;
         collects_ = true;
     }
     if (scene_ == nullptr || scene_->physics == nullptr)
         return;
-    bodies_ = goOn != nullptr ? std::move(goOn) : body::BodyWorld::make(*scene_, haptic);
+    bodies_ = goesOn.bodies != nullptr ? std::move(goesOn.bodies) : body::BodyWorld::make(*scene_, haptic);
     if (bodies_ == nullptr)
         return;
     motions_ = haptic.restMotions;
@@ -196,9 +195,8 @@ void WorldState::showBodies(const body::BodyPoses& poses) {
         *shown_ = poses;
 }
 
-void WorldState::pushBody(int object, const glm::dvec3& point, const glm::dvec3& force,
-                          double stiffness) noexcept {
-    bodies_->push(object, point, force, stiffness);
+void WorldState::pushBody(int object, const body::HandPush& push) noexcept {
+    bodies_->push(object, push);
 }
 
 void WorldState::integrateBodies(const HapticSettings& settings, double dt) noexcept {
@@ -206,28 +204,27 @@ void WorldState::integrateBodies(const HapticSettings& settings, double dt) noex
         bodies_->integrate(settings.integrator, settings.gravity, dt);
 }
 
-void WorldState::pushSoft(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
-                          double most) noexcept {
-    soft_->push(object, point, force, stiffness, most);
+void WorldState::pushSoft(int object, const body::HandPush& push) noexcept {
+    softStates_->push(object, push);
 }
 
 void WorldState::integrateSoft(const HapticSettings& settings, double dt) noexcept {
-    soft_->integrate(settings.gravity, dt);
+    softStates_->integrate(settings.gravity, dt);
 }
 
 void WorldState::stepSoftApart() const {
-    soft_->stepApart();
+    softStates_->stepApart();
 }
 
 bool WorldState::softHeld() const noexcept {
-    return soft_->held();
+    return softStates_->held();
 }
 
 std::vector<std::byte> WorldState::bodyState() const {
     std::vector<std::byte> bytes;
     if (soft_ != nullptr) {
-        bytes.resize(soft_->stateSize());
-        soft_->save(bytes);
+        bytes.resize(softStates_->stateSize());
+        softStates_->save(bytes);
     } else if (bodies_ != nullptr) {
         bytes.resize(bodies_->stateCapacity());
         bytes.resize(bodies_->save(bytes));
@@ -244,8 +241,11 @@ void WorldState::shareTextures(std::shared_ptr<PersistentTextures> textures) noe
 }
 
 bool WorldState::restoreBodies(std::span<const std::byte> bytes) noexcept {
-    if (soft_ != nullptr)
-        return soft_->restore(bytes);
+    if (soft_ != nullptr) {
+        const bool sound = softStates_->restore(bytes);
+        soft_->showRestored();
+        return sound;
+    }
     if (bodies_ == nullptr || !bodies_->restore(bytes))
         return false;
     bodies_->showPublished(motions_);
@@ -279,7 +279,7 @@ uint32_t WorldState::poseHash() const noexcept {
     if (deforming_ != nullptr)
         deforming_->addTo(hash);
     if (soft_ != nullptr)
-        soft_->addTo(hash);
+        softStates_->addTo(hash);
     for (const Mover& mover : movers_) {
         const ObjectMotion& motion = motions_[mover.object];
         const Similarity& pose = motion.workspaceFromObject;

@@ -5,6 +5,7 @@
 #include "engine/math/object_motion.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
+#include "haptics/body/hand_push.h"
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/settings/haptic_settings.h"
 #include "haptics/world/deforming_objects.h"
@@ -27,6 +28,7 @@ struct BodyPoses;
 class PersistentTextures; // haptics/texture/persistent_textures.h
 class DrivenObjects;      // haptics/world/driven_objects.h
 class SoftObjects;        // haptics/world/soft_objects.h
+class SoftStates;         // haptics/world/soft_states.h
 
 /// Warnings where the playing animation is felt differently from what is seen.
 [[nodiscard]] std::vector<Warning> animationWarnings(const Scene& scene);
@@ -41,6 +43,14 @@ struct ObjectReaction {
 /// (WorldState::showBodies).
 enum class WorldBodies : uint8_t { Simulated, Shown };
 
+/// What a world of equal geometry leaves to another one, which goes on with it. Each may be null.
+struct CarriedOver {
+    std::shared_ptr<body::BodyWorld> bodies{};
+    std::shared_ptr<SoftStates> soft{};             ///< where the soft bodies are the same
+    std::shared_ptr<PersistentTextures> textures{}; ///< where they fit
+    std::shared_ptr<DrivenObjects> driven{};        ///< objects that a caller moves besides (drivenProblem)
+};
+
 /// The state of a world from tick to tick. A tick begins with `advance`, which alone computes poses; the
 /// haptic step reads `poses` and adds the hands' forces to `reactions`. Construct off the servo (it
 /// allocates); nothing else here allocates, locks or throws. One thread at a time.
@@ -53,13 +63,10 @@ class WorldState {
     /// Nothing moves.
     WorldState() noexcept;
     /// The animation that plays in `source` moves the objects of `haptic`, which was compiled from it, and so
-    /// do its bodies. A null source: nothing moves. `goOn`: the bodies of a world of the same geometry, which
-    /// go on here, as do its `textures` where they fit. WorldBodies::Shown: without persistent textures.
-    /// `driven`: objects that a caller moves besides (drivenProblem).
+    /// do its bodies. A null source: nothing moves. WorldBodies::Shown: without persistent textures and soft
+    /// bodies.
     WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies bodies = WorldBodies::Simulated,
-               std::shared_ptr<body::BodyWorld> goOn = nullptr,
-               std::shared_ptr<PersistentTextures> textures = nullptr,
-               std::shared_ptr<DrivenObjects> driven = nullptr);
+               CarriedOver goesOn = {});
     ~WorldState();
     WorldState(WorldState&&) noexcept;
     WorldState& operator=(WorldState&&) noexcept;
@@ -111,25 +118,22 @@ class WorldState {
         for (ObjectReaction& reaction : reactions_)
             reaction = {};
     }
-    /// Force `force` (N) on an object at `point` (m), both in the workspace. `stiffness`: N/m, of the contact
-    /// that exerts it. `most`: N, what the hand's device can exert.
-    void push(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
-              double most) noexcept {
+    void push(int object, const body::HandPush& push) noexcept {
         if (!reactions_.empty()) {
             ObjectReaction& reaction = reactions_[static_cast<size_t>(object)];
-            reaction.force += force;
-            reaction.torque += glm::cross(point, force);
+            reaction.force += push.force;
+            reaction.torque += glm::cross(push.point, push.force);
         }
         if (bodies_ != nullptr)
-            pushBody(object, point, force, stiffness);
+            pushBody(object, push);
         if (soft_ != nullptr) [[unlikely]]
-            pushSoft(object, point, force, stiffness, most);
+            pushSoft(object, push);
     }
 
     /// Null where no body moves.
     [[nodiscard]] const std::shared_ptr<body::BodyWorld>& bodies() const noexcept { return bodies_; }
     /// Null where none is soft (never with WorldBodies::Shown).
-    [[nodiscard]] const std::shared_ptr<SoftObjects>& soft() const noexcept { return soft_; }
+    [[nodiscard]] const std::shared_ptr<SoftStates>& soft() const noexcept { return softStates_; }
     /// The bodies' state after `dt` s under the forces that were pushed, and the textures after the strokes
     /// of this tick. The last phase of a tick before safety.
     void integrate(const HapticSettings& settings, double dt) noexcept {
@@ -165,10 +169,9 @@ class WorldState {
         bool jumps = false;             // the animation does not end where it begins
     };
 
-    void pushBody(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness) noexcept;
+    void pushBody(int object, const body::HandPush& push) noexcept;
     void integrateBodies(const HapticSettings& settings, double dt) noexcept;
-    void pushSoft(int object, const glm::dvec3& point, const glm::dvec3& force, double stiffness,
-                  double most) noexcept;
+    void pushSoft(int object, const body::HandPush& push) noexcept;
     void integrateSoft(const HapticSettings& settings, double dt) noexcept;
     void advanceSoft(bool hold) noexcept;
     void stepSoftApart() const;
@@ -185,7 +188,8 @@ class WorldState {
     std::vector<Mover> movers_;
     std::vector<ObjectMotion> motions_;
     std::unique_ptr<DeformingObjects> deforming_; // null: none
-    std::shared_ptr<SoftObjects> soft_;           // null: none
+    std::unique_ptr<SoftObjects> soft_;           // null: none
+    std::shared_ptr<SoftStates> softStates_;      // of them
     const HapticScene* own_ = nullptr;            // of either; null: none
     ObjectMotions poses_;
     std::vector<ObjectReaction> reactions_;

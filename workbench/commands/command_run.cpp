@@ -158,7 +158,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
         } else {
             poseAt(animationTime(settings, tick.time), *model.scene, renderer);
         }
-        if (SoftObjects* const soft = session.servo().soft())
+        if (SoftStates* const soft = session.servo().soft())
             poseSoft(*soft, *model.scene, *model.haptic, renderer);
         textures.show(*model.haptic, recorder.textures(), renderer);
         dented.show(session.servo().dents(), *model.scene, *model.haptic, renderer);

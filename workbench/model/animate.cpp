@@ -83,13 +83,13 @@ void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, Sc
     renderer.setInstancePoses(world.sceneFromMesh());
 }
 
-void poseSoft(SoftObjects& soft, const Scene& scene, const HapticScene& haptic, SceneRenderer& renderer) {
+void poseSoft(SoftStates& soft, const Scene& scene, const HapticScene& haptic, SceneRenderer& renderer) {
     if (!renderer.hasScene())
         return;
     (void)soft.publication().update();
     std::span<const glm::vec3> places = soft.publication().value();
     DrawnVertices drawn;
-    for (const SoftObjects::Shown& shown : soft.shown()) {
+    for (const SoftStates::Shown& shown : soft.shown()) {
         const HapticObject& object = *haptic.objects[shown.object];
         const int m = scene.instances[static_cast<size_t>(object.instance)].mesh;
         const Mesh& mesh = scene.meshes[static_cast<size_t>(m)];

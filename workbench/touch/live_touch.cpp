@@ -137,7 +137,7 @@ void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body:
         drawnMoved_ = !moved.empty();
     } else
         poseAt(time, *shown_.model.scene, renderer);
-    if (SoftObjects* const soft = session_.servo().soft())
+    if (SoftStates* const soft = session_.servo().soft())
         poseSoft(*soft, *shown_.model.scene, *shown_.model.haptic, renderer);
     textures_.show(*shown_.model.haptic, controller_.recorder().textures(), renderer);
     dented_.show(session_.servo().dents(), *shown_.model.scene, *shown_.model.haptic, renderer);

@@ -3,6 +3,7 @@
 
 #include "engine/scene/soft_body.h"
 #include "haptics/world/soft_objects.h"
+#include "haptics/world/soft_states.h"
 #include "tests/unit/deforming/deforming_bench.h"
 
 #include <algorithm>

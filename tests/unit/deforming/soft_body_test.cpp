@@ -191,6 +191,89 @@ TEST(SoftBodies, StatesGoOnToTheLastBit) {
     }
 }
 
+/// A replay may begin anywhere, with a solver that has stepped nothing yet. Bullet took the lengths of the
+/// edges at rest from the first state that it stepped: a replay of an edit differed.
+TEST(SoftBodies, AStepDependsOnItsArgumentsAlone) {
+    for (const SoftKind kind : {SoftKind::Cloth, SoftKind::Jelly}) {
+        body::SoftShape shape;
+        for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+            shape.vertices.emplace_back(0.02 * x, 0.02 * y, -0.02);
+        for (size_t v = 0; v < 4; ++v)
+            shape.vertices.push_back(shape.vertices[v] + glm::dvec3(0, 0, 0.04));
+        shape.triangles = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                           1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+        shape.fixed.assign(8, 0);
+        shape.fixed[0] = 1;
+        SoftBody law;
+        law.kind = kind;
+        law.shapeFrequency = kind == SoftKind::Jelly ? 25.0 : 0.0;
+        law.volumeStiffness = kind == SoftKind::Jelly ? 8000.0 : 0.0;
+        body::SoftSolver old(law, shape, 1.0);
+        body::SoftState now = old.rest(), next = now;
+        for (uint64_t k = 0; k < 40; ++k) { // it falls and hangs
+            old.step(now, now, now, {}, 9.81, k, next);
+            std::swap(now, next);
+        }
+        body::SoftSolver fresh(law, shape, 1.0);
+        body::SoftState again = next;
+        old.step(now, now, now, {}, 9.81, 40, next);
+        fresh.step(now, now, now, {}, 9.81, 40, again);
+        EXPECT_EQ(again, next);
+        EXPECT_NE(next, now);
+    }
+}
+
+/// A scene of equal geometry, as after an edit of a material, takes the bodies over in the middle of a press.
+TEST(SoftBodies, AnEditLeavesThemWhereTheyAre) {
+    for (const std::string& path : {kJelly, kCloth}) {
+        const HapticSettings settings = touchedWith(0.001, 0.3);
+        SoftBench bench(path, settings, path == kJelly), whole(path, settings, path == kJelly);
+        const double top = path == kJelly ? kTop : 0.020;
+        const auto hipAt = [&](int k) {
+            return glm::dvec3{0.001, top + 0.01 - 1.5e-5 * std::min(k, 900), 0.0015};
+        };
+        for (int k = 0; k < 1200; ++k) {
+            if (k > 0 && k % 97 == 0) { // as ServoLoop::adopt
+                auto edited = copyOf(*bench.haptic);
+                bench.hand.world = WorldState(bench.source, *edited, WorldBodies::Simulated,
+                                              {.soft = bench.hand.world.soft()});
+                bench.hand.world.advance(1e-3 * (k - 1));
+                bench.hand.state.candidates.invalidate(); // they point into the scene before
+                whole.hand.state.candidates.invalidate();
+                bench.hand.scene = edited.get();
+                bench.haptic = std::move(edited);
+            }
+            bench.feel(hipAt(k));
+            whole.feel(hipAt(k));
+            ASSERT_EQ(bench.hand.world.poseHash(), whole.hand.world.poseHash()) << k;
+            ASSERT_EQ(bench.hand.output.proxy, whole.hand.output.proxy) << k;
+            ASSERT_EQ(bench.hand.output.force, whole.hand.output.force) << k;
+        }
+        EXPECT_EQ(bench.report.starts, 1u);
+        EXPECT_GT(bench.report.contacts, 200u);
+        expectExact(bench.report, "edited, " + path.substr(path.rfind('/') + 1));
+    }
+}
+
+/// Of another scene, or of a part without one of them.
+TEST(SoftBodies, OtherBodiesBeginAnew) {
+    const ScenePtr jelly = loadScene(kJelly), again = loadScene(kJelly);
+    const auto haptic = compileHapticScene(*jelly, Similarity{}),
+               other = compileHapticScene(*again, Similarity{});
+    const WorldState world(jelly, *haptic);
+    EXPECT_TRUE(softGoOn(world.soft().get(), jelly.get(), *haptic));
+    EXPECT_FALSE(softGoOn(world.soft().get(), again.get(), *other)) << "read again: its law may be another";
+    EXPECT_FALSE(softGoOn(nullptr, jelly.get(), *haptic));
+    const CarriedOver goesOn{.soft = world.soft()};
+    EXPECT_EQ(WorldState(jelly, *haptic, WorldBodies::Simulated, goesOn).soft(), world.soft());
+    const WorldState anew(again, *other, WorldBodies::Simulated, goesOn);
+    EXPECT_NE(anew.soft(), world.soft());
+    EXPECT_NE(anew.soft(), nullptr);
+    ScenePart part;
+    part.clip = ClipPlane{.normal = {1, 0, 0}, .offset = 0.001};
+    EXPECT_FALSE(softGoOn(world.soft().get(), jelly.get(), *partOf(*haptic, *jelly, part)));
+}
+
 TEST(SoftBodies, ADamagedStateIsRefusedAndChangesNothing) {
     const HapticSettings settings = touchedWith(0.001, 0.3);
     const auto press = [](SoftBench& bench) {

@@ -73,5 +73,20 @@ TEST(SoftPress, AHandOnAVertexOrAnEdgeStaysOutside) {
     expectExact(bench.report, "jelly, pressed at vertices and edges");
 }
 
+/// Over a ball, so that the proxy has the cloth over it and the ball under that.
+TEST(SoftPress, AHandOnAClothStaysOutside) {
+    SoftBench bench(kCloth, touchedWith(0.001, 0.0), false);
+    const glm::dvec3 away{0.0, 0.05, 0.0};
+    bench.wait(1.0, away);
+    for (const glm::dvec3& place : placesOf(bench)) {
+        const size_t jams = bench.report.jams;
+        EXPECT_GT(press(bench, {place, 0.17, 0.004}), 0.01) << place.x << ' ' << place.z;
+        EXPECT_EQ(bench.report.jams, jams) << place.x << ' ' << place.z;
+        bench.wait(0.3, away);
+    }
+    EXPECT_EQ(bench.report.starts, 1u) << "touch was lost";
+    expectExact(bench.report, "cloth, pressed at vertices and edges");
+}
+
 } // namespace
 } // namespace touchstone::test
