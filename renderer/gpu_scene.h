@@ -51,6 +51,7 @@ class GpuScene {
     /// Draws other triangles in place of a mesh's from the next frame on; its buffers are
     ///  those of kGenerations calls ago, which no frame in flight uses: at most one call a frame.
     void reshape(int index, const ReshapedMesh& reshaped);
+    [[nodiscard]] bool isReshaped(int index) const { return reshaped_.contains(index); }
     /// Binds the buffers of a mesh that was reshaped; false where it was not.
     bool bindReshaped(const vk::raii::CommandBuffer& commands, int index, ViewMode mode) const;
     [[nodiscard]] vk::Buffer vertices() const { return *vertices_.buffer; }

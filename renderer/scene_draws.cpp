@@ -134,10 +134,12 @@ void SceneRenderer::Impl::collectDraws(const View& view, const glm::dvec3& eye, 
             item.features |= shared::kIsClipped;
             // A cut shows the insides, which are felt unless the material is felt from outside only, or the
             // face that is in their place.
-            const bool filled = !strokes && isFilled(scene, scene.instances[i]);
-            item.constants.normalFromMesh[2].w = filled ? 1.0f : 0.0f;
+            const bool field = !strokes && isFilled(scene, scene.instances[i]);
+            const bool shell = std::ranges::binary_search(view.shells, static_cast<int>(i)) &&
+                               !scene_->isReshaped(scene.instances[i].mesh);
+            item.constants.normalFromMesh[2].w = field && !shell ? 1.0f : 0.0f;
             item.bothSides =
-                !strokes && (filled || material.doubleSided || material.haptic.sides != SideChoice::Front);
+                !strokes && (field || material.doubleSided || material.haptic.sides != SideChoice::Front);
         }
         item.constants.normalFromMesh[1].w =
             static_cast<float>(std::cbrt(std::abs(glm::determinant(glm::dmat3(poses[i])))));

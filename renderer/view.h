@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace touchstone {
 
@@ -70,6 +71,9 @@ struct View {
     glm::dmat4 clipFromView{1.0}; ///< depth 0..1, y up; must match the aspect of the image
     Similarity workspaceFromScene;
     ScenePart part; ///< what is drawn of the scene
+    /// Of Scene::instances, in order: fields that are shells of their open meshes, hollow where the plane
+    /// cuts them. Where their surface is drawn in place of the mesh (SceneRenderer::reshape), it is closed.
+    std::vector<int> shells;
     ViewMode mode = ViewMode::Shaded;
     bool wireframe = false; ///< the triangles' edges over the surface; the device draws none where it cannot
     std::array<DirectionalLight, 2> lights{};

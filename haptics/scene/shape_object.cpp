@@ -43,7 +43,17 @@ std::shared_ptr<HapticObject> withShape(const HapticObject& object, std::shared_
     made->instance = object.instance;
     made->objectFromMesh = object.objectFromMesh;
     made->oneSided = object.oneSided;
+    made->shell = object.shell;
     return made;
+}
+
+std::vector<int> shellsOf(const HapticScene& scene) {
+    std::vector<int> shells;
+    for (const auto& object : scene.objects)
+        if (object->shell && object->instance >= 0)
+            shells.push_back(object->instance);
+    std::ranges::sort(shells);
+    return shells;
 }
 
 void keepFieldsIn(const FieldCache& cache) {
@@ -179,7 +189,10 @@ std::shared_ptr<const HapticObject> fieldObject(const HapticObject& mesh,
     Grid grid = byError ? gridOfError(mesh, request, use.fieldError, objectPerModel, progress, warnings)
                         : gridOfVoxel(mesh, request, use.voxelSize, objectPerModel, progress, warnings);
     checkWaves(mesh, request.relief, grid->layout().voxel, warnings);
-    return withShape(mesh, std::make_shared<FieldShape>(std::move(grid)));
+    std::shared_ptr<HapticObject> made = withShape(mesh, std::make_shared<FieldShape>(std::move(grid)));
+    // A closed mesh too thin to hold a node is a shell, too, but its two sides leave nothing between them.
+    made->shell = !mesh.closed;
+    return made;
 }
 
 std::shared_ptr<const HapticObject> volumeObject(const Scene& scene, int instance,

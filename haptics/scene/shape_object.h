@@ -40,6 +40,10 @@ void keepFieldsIn(const FieldCache& cache);
                                                               const ObjectUse& use, const Progress& progress,
                                                               std::vector<Warning>& warnings);
 
+/// Of Scene::instances, in order: those that are felt as the shell of an open mesh. A clipping plane leaves a
+/// face on other fields (isFilled), on these the rim of the shell.
+[[nodiscard]] std::vector<int> shellsOf(const HapticScene& scene);
+
 /// The object of a scene's volume (Scene::volume): the field of distances from the surface where its values
 /// are Scene::iso, as deep as above and at most kDeepestVoxels. Not for the servo thread. Throws Error and
 /// Cancelled.

@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"
 #include "haptics/scene/scene_programs.h"
+#include "haptics/scene/shape_object.h"
 #include "haptics/tick/stepped_hand.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
@@ -55,6 +56,13 @@ bool hasFieldTexture(const Scene& scene) {
     });
 }
 
+/// Where a plane cuts a field it leaves a face, but on the shell of an open mesh; which it is, is known to
+/// the hand.
+bool hasField(const Scene& scene) {
+    return std::ranges::any_of(scene.materials,
+                               [](const Material& material) { return material.haptic.implicit; });
+}
+
 /// The hand where a stroke over the model ends, and what it has made of the textures.
 struct Touched {
     Touched(const RenderOptions& options, Model& model) {
@@ -93,8 +101,9 @@ int renderCommand(const RenderOptions& options) {
                       ? loadModel(options.scene, Fit::Workspace, loading)
                       : loadModelToSee(options.scene, Fit::Workspace, mode != ViewMode::Shaded, options.iso,
                                        options.animation);
-    if (model.haptic == nullptr &&
-        (hasPersistentTexture(*model.scene) || hasFieldTexture(*model.scene))) // what is felt of them is seen
+    if (model.haptic == nullptr && // what is felt of them is seen
+        (hasPersistentTexture(*model.scene) || hasFieldTexture(*model.scene) ||
+         (options.part.clip && hasField(*model.scene))))
         model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
@@ -116,6 +125,8 @@ int renderCommand(const RenderOptions& options) {
     View view = chosenView(options.camera, model, options.size, drawn);
     view.mode = mode;
     view.part = model.part;
+    if (model.haptic != nullptr)
+        view.shells = shellsOf(*model.haptic);
     view.wireframe = options.wireframe;
     Overlay overlay;
     if (options.grid)

@@ -7,6 +7,7 @@
 #include "engine/time/seconds_now.h"
 #include "haptics/body/joint_settings.h"
 #include "haptics/comparison/comparison_solver.h"
+#include "haptics/scene/shape_object.h"
 #include "renderer/draw_quality.h"
 #include "renderer/picture_file.h"
 #include "renderer/scene_renderer.h"
@@ -52,6 +53,7 @@ View firstView(const Model& model, const glm::ivec2& size) {
     View view =
         viewOf(OrbitCamera::threeQuarter(workspaceBounds(model), aspect), model.workspaceFromScene, aspect);
     view.part = model.part;
+    view.shells = shellsOf(*model.haptic);
     return view;
 }
 

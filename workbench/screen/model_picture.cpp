@@ -1,6 +1,7 @@
 #include "workbench/screen/model_picture.h"
 
 #include "engine/time/seconds_now.h"
+#include "haptics/scene/shape_object.h"
 #include "workbench/screen/axis_gizmo.h"
 #include "workbench/screen/felt_edges.h"
 #include "workbench/screen/ground_grid.h"
@@ -51,6 +52,8 @@ ModelPicture::Setup ModelPicture::setUp(const Frame& frame, double aspect, Scene
     overlay_.clear();
     if (!setup.hasModel)
         return setup;
+    if (setup.view.part.clip)
+        setup.view.shells = shellsOf(*frame.model.haptic);
     setup.look.frictionCoefficient =
         frictionCoefficientAt(frame.tick, frame.settings, *frame.model.scene, *frame.model.haptic);
     drawHands(frame, setup.look);
@@ -82,6 +85,7 @@ View ModelPicture::magnified(const Frame& frame, Setup setup) {
         viewOf(Magnifier::camera(frame.camera, frame.tick.output.proxy), frame.model.workspaceFromScene, 1.0);
     near.mode = setup.view.mode;
     near.part = setup.view.part;
+    near.shells = setup.view.shells;
     near.wireframe = setup.view.wireframe;
     near.allowedError = setup.view.allowedError;
     near.probe = setup.view.probe;

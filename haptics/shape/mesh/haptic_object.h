@@ -82,8 +82,9 @@ struct HapticObject {
     /// Part of a mesh (buildCutObject): `sourceIndices` count the part's vertices, not the scene's, so that
     /// nothing may take them for those of a mesh that deforms.
     bool cut = false;
-    RayTree rays;      ///< Embree's, for rays; built on demand
-    TriangleTree tree; ///< for proximity queries
+    bool shell = false; ///< `shape` is the field of an open mesh, a shell about it: a cut leaves it hollow
+    RayTree rays;       ///< Embree's, for rays; built on demand
+    TriangleTree tree;  ///< for proximity queries
     /// Null but in a world's own copy of an object that deforms (world/deforming_objects.h): then the
     /// vertices of this tick, instead of `vertices`, `normals` and `tree`, which are those of the static
     /// pose.

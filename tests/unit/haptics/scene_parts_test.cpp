@@ -7,6 +7,7 @@
 #include "haptics/query/surface_pick.h"
 #include "haptics/scene/scene_parts.h"
 #include "haptics/scene/scene_sculptor.h"
+#include "haptics/scene/shape_object.h"
 #include "haptics/shape/field/cut_field.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/touch_bench.h"
@@ -307,6 +308,34 @@ TEST(SceneParts, ACutFieldIsABallWithAFace) {
         bench.moveTo({0.0, 0.0, 0.001}, 0.3);
         EXPECT_NEAR(bench.output.proxy.y, face + radius, 1e-12);
     }
+}
+
+/// The field of an open mesh is a shell: through the cut a hand goes into it and feels its wall from inside.
+/// The eye is told so (View::shells), and that a closed one has a face.
+TEST(SceneParts, ACutShellIsHollow) {
+    Scene scene = sceneOf(assets::box({0.1, 0.1, 0.1}));
+    scene.materials[0].haptic.implicit = true;
+    const auto closed = compileHapticScene(scene, Similarity{});
+    EXPECT_TRUE(shellsOf(*closed).empty());
+    EXPECT_TRUE(shellsOf(*partOf(*closed, scene, clipped({0, 1, 0}, 0.0))).empty());
+    PartBench solid(scene, clipped({0, 1, 0}, 0.0), plainSettings());
+    solid.moveTo({0.001, 0.06, 0.002}, 0.3);
+    solid.moveTo({0.001, -0.005, 0.002}, 0.3);
+    EXPECT_NEAR(solid.output.proxy.y, 0.0005, 1e-9) << "the face holds it";
+
+    std::vector<uint32_t>& indices = scene.meshes[0].indices;
+    indices.resize(indices.size() - 3); // a hole
+    PartBench bench(scene, clipped({0, 1, 0}, 0.0), plainSettings());
+    EXPECT_EQ(shellsOf(*bench.scene), std::vector<int>{0});
+    const auto untouched = [](const HapticOutput& output) { ASSERT_EQ(output.contacts, 0u) << output.hip.y; };
+    bench.moveTo({0.001, 0.06, 0.002}, 0.3);
+    bench.moveTo({0.001, -0.04, 0.002}, 0.3, untouched);
+    bench.moveTo({0.001, -0.049, 0.002}, 0.3);
+    const double voxel =
+        std::dynamic_pointer_cast<const PotentialShape>(bench.scene->objects[0]->shape)->voxel() *
+        bench.scene->objects[0]->workspaceFromObject.scale;
+    EXPECT_NEAR(bench.output.proxy.y, -0.05 + voxel + 0.0005, 1e-4) << "its floor, a voxel thick";
+    EXPECT_GT(bench.output.force.y, 0.1);
 }
 
 /// Away from the cut a hand feels the whole field to the last bit; where the plane has taken all, nothing.
