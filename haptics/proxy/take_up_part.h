@@ -8,7 +8,7 @@
 namespace touchstone {
 
 /// True where a touch can go on while another part of the scene comes to be felt: nothing in it is soft,
-/// since what is soft begins anew with every compiled scene. `source`: what it was compiled from; null:
+/// since a soft body that is cut or hidden has other vertices. `source`: what it was compiled from; null:
 /// nothing moves.
 [[nodiscard]] bool canTakeUpPart(const Scene* source);
 
