@@ -1,5 +1,6 @@
 #pragma once
-// The distance field of a mesh, by OpenVDB. Not for the servo thread.
+// The distance field of a mesh. Not for the servo thread. OpenVDB tells inside from outside; the distances
+// are those to the nearest of all triangles.
 
 #include "engine/core/progress.h"
 #include "haptics/shape/field/field_cache.h"
