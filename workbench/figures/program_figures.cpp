@@ -16,8 +16,8 @@ using program::ProgramGradient;
 struct Figures {
     double ns = 0.0; ///< of one call, of the fastest batch
     uint32_t cost = 0;
-    int flagged = 0;         ///< calls without a result
-    program::ProgramEnd end; ///< of one of these
+    int flagged = 0;           ///< calls without a result
+    program::ProgramEnd end{}; ///< of one of these
 };
 
 /// Touches a stroke over a patch of 50 mm, 2 mm deep.
