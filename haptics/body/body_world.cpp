@@ -151,9 +151,6 @@ void BodyWorld::push(int object, const HandPush& push) noexcept {
     touch.torque += glm::cross(push.point - states_[b].pose.position, push.force);
     touch.point = push.point;
     touch.stiffness += push.stiffness;
-    if (const double size = glm::length(push.force); size > 0.0)
-        touch.closes += push.stiffness * glm::dot(push.velocity, push.force) / size;
-    touch.most += push.most;
 }
 
 void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
@@ -164,13 +161,9 @@ void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
     touchOf(body).torque += torque;
 }
 
-/// The part of the hands' force that pushes a body: all of it, or that of the spring between hand and body at
-/// the end of the step (backward Euler), F' = (F + k dt (v_hand - v)) / (1 + dt² k / m) along the force. With
-/// the hand's own motion F' is what the next tick feels, so that the sum over a push is the impulse of the
-/// hand's force but for one tick's; without, it was less by dt² k / m, 2 % of a body of 50 g at 1000 N/m.
-///
-/// A body so light that the spring's rate is beyond the step's is never pushed by all of it but by Euler:
-/// there the force is divided alone.
+/// The part of the hands' force that pushes a body: the spring between hand and body at the end of the step,
+/// implicit along the force. A body that is so light that the spring's rate is beyond the step's is never
+/// pushed by all of it but by Euler.
 double BodyWorld::partOf(const Touch& touch, int body, BodyIntegrator integrator, double dt) const noexcept {
     const double size = glm::length(touch.force);
     if (!(size > 0.0))
@@ -182,11 +175,7 @@ double BodyWorld::partOf(const Touch& touch, int body, BodyIntegrator integrator
     const glm::dvec3 arm = glm::cross(lever, along);
     const double rate =
         dt * dt * touch.stiffness * (mass.inverse + glm::dot(arm, turned(mass, state.pose.rotation, arm)));
-    if (integrator != BodyIntegrator::Implicit)
-        return rate > 1.0 ? 1.0 / (1.0 + rate) : 1.0;
-    const double away = glm::dot(along, state.velocity + glm::cross(state.spin, lever));
-    const double end = (size + dt * (touch.closes - touch.stiffness * away)) / (1.0 + rate);
-    return std::clamp(end, 0.0, std::max(touch.most, size)) / size;
+    return integrator == BodyIntegrator::Implicit || rate > 1.0 ? 1.0 / (1.0 + rate) : 1.0;
 }
 
 void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) noexcept {

@@ -143,8 +143,6 @@ class BodyWorld {
         glm::dvec3 force{0.0}, torque{0.0}; ///< N, N m about the centre of mass
         glm::dvec3 point{0.0};              ///< workspace, of the last force
         double stiffness = 0.0;             ///< N/m, the sum
-        double closes = 0.0;                ///< N/s, of the force by the hands' own motion
-        double most = 0.0;                  ///< N, what their devices can exert
         bool listed = false;                ///< in touched_
     };
 

@@ -53,7 +53,8 @@ TEST(BodyTouch, AFreeBodyTakesTheHandsMomentum) {
                     "free cube, %s, k %4.0f, %.2f m/s: momentum %.6f, impulse %.6f N s, force %.2f N, "
                     "given %+.4f mJ, gap %.2g m\n",
                     nameOf(integrator), stiffness, speed, momentum, impulse, force, 1e3 * energy, gap);
-                EXPECT_NEAR(momentum, impulse, 0.01 * impulse);
+                EXPECT_NEAR(momentum, impulse,
+                            integrator == BodyIntegrator::Implicit ? 0.03 * impulse : 0.01 * impulse);
                 EXPECT_GT(momentum, 0.0);
                 EXPECT_LE(force, 8.5 + 1e-9);
                 EXPECT_GT(gap, -1e-7);
