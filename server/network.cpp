@@ -31,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostClients = 16, kMostMessage = size_t{24} << 20;
 constexpr size_t kMostQueued = 64, kMostQueuedReplies = 1000; // of states and ticks; of everything
+constexpr size_t kMostQueuedBytes = size_t{32} << 20; // of everything: the ticks of three paths of 100,000
 constexpr double kMessagesASecond = 2000.0;
 constexpr auto kUnknownFor = std::chrono::seconds(5);
 constexpr const char *kSocketHost = "unix", *kTimer = "timer";
@@ -42,6 +43,7 @@ struct Peer {
     bool trusted = false, closing = false;
     std::string incoming;
     std::deque<Outgoing> queue;
+    size_t queuedBytes = 0;
     double allowance = kMessagesASecond;
     Clock::time_point last = Clock::now(), since = Clock::now();
 };
@@ -66,7 +68,7 @@ bool fromSocket(lws* wsi) {
     return std::string_view(lws_get_vhost_name(lws_get_vhost(wsi))) == kSocketHost;
 }
 
-/// From this machine, and by no other page than ours.
+/// By a name of this server, and by no other page than ours and those of `--origin`.
 bool mayConnect(lws* wsi) {
     if (lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 255 || lws_hdr_total_length(wsi, WSI_TOKEN_HOST) > 255)
         return false;
@@ -85,10 +87,17 @@ void deliver() {
                 continue;
             if (message.stream && peer.queue.size() >= kMostQueued)
                 continue;
-            if (peer.queue.size() >= kMostQueuedReplies)
+            if (peer.closing)
+                continue;
+            if (peer.queue.size() >= kMostQueuedReplies || peer.queuedBytes > kMostQueuedBytes) {
+                // It never becomes writable where the client does not read.
                 peer.closing = true;
-            else
-                peer.queue.push_back(message);
+                peer.queue.clear();
+                lws_set_timeout(wsi, PENDING_TIMEOUT_USER_REASON_BASE, LWS_TO_KILL_ASYNC);
+                continue;
+            }
+            peer.queuedBytes += message.bytes.size();
+            peer.queue.push_back(message);
             lws_callback_on_writable(wsi);
         }
 }
@@ -185,6 +194,7 @@ bool writeNext(lws* wsi, Peer& peer) {
         return true;
     const Outgoing message = std::move(peer.queue.front());
     peer.queue.pop_front();
+    peer.queuedBytes -= message.bytes.size();
     std::string frame(LWS_PRE, '\0');
     frame += message.bytes;
     const int written = lws_write(wsi, reinterpret_cast<unsigned char*>(frame.data()) + LWS_PRE,

@@ -287,7 +287,15 @@ void TouchServer::finishLoading() {
 /// Throws ts::Error.
 void TouchServer::touchNow(SceneLoading::Loaded loaded) {
     ts::check(ts_session_stop(session_.get())); // a simulated hand strokes what is there when it starts
-    ts::check(ts_session_touch(session_.get(), loaded.scene->get()));
+    try {
+        ts::check(ts_session_touch(session_.get(), loaded.scene->get()));
+    } catch (const ts::Error&) { // no stroke can be laid on it, say: the old scene is touched on
+        if (touching_) {
+            ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
+            ts::check(ts_session_start(session_.get()));
+        }
+        throw;
+    }
     ts::check(ts_session_force(session_.get(), forceOn_ ? 1 : 0));
     ts::check(ts_session_start(session_.get()));
     touching_ = true;

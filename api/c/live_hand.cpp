@@ -81,6 +81,14 @@ LiveHand::LiveHand(const char* device, const ts_device* own, const std::string& 
     }
 }
 
+std::shared_ptr<const StrokePath> LiveHand::layStroke(TouchedScene& scene) const {
+    if (!simulated())
+        return nullptr;
+    StrokeRequest request;
+    request.name = stroke_;
+    return scene.stroke(request);
+}
+
 Device& LiveHand::connect(TouchedScene& scene, double late) {
     newest_ = {};
     if (own_ != nullptr)
@@ -88,9 +96,7 @@ Device& LiveHand::connect(TouchedScene& scene, double late) {
     glm::dvec3 place(0.0);
     Device* device = linked_.get();
     if (device == nullptr) {
-        StrokeRequest request;
-        request.name = stroke_;
-        const std::shared_ptr<const StrokePath> stroke = scene.stroke(request);
+        const std::shared_ptr<const StrokePath> stroke = layStroke(scene);
         path_ = std::make_unique<SimulatedHand>(stroke, late * stroke->period());
         yielding_ = std::make_unique<HandImpedance>(*path_);
         device = yielding_.get();

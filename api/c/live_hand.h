@@ -40,6 +40,9 @@ class LiveHand {
     LiveHand(const char* device, const ts_device* own, const std::string& argument);
 
     [[nodiscard]] bool simulated() const { return !stroke_.empty(); }
+    /// What a simulated hand strokes on a scene, which keeps it; null for others. Throws where no stroke can
+    /// be laid.
+    std::shared_ptr<const StrokePath> layStroke(TouchedScene& scene) const;
     /// The device for a new servo, which this outlives. A simulated hand strokes the scene, and begins `late`
     /// (0..1) of the stroke's period after the start.
     [[nodiscard]] Device& connect(TouchedScene& scene, double late);

@@ -71,6 +71,8 @@ void LiveSession::touch(std::shared_ptr<TouchedScene> scene) {
     const std::lock_guard lock(mutex_);
     requireOpen();
     scene->prepareFor(settings_);
+    for (const auto& hand : hands_) // where none can be laid, the old scene stays
+        (void)hand->layStroke(*scene);
     scene_ = std::move(scene);
     changed_.reset();
     driven_.reset();

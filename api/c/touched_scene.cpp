@@ -34,12 +34,14 @@ Bounds TouchedScene::bounds() const {
 }
 
 void TouchedScene::prepareFor(const HapticSettings& settings) {
+    if (isBuiltFor(*haptic_, settings)) // without waiting for what another thread builds
+        return;
     const std::lock_guard lock(building_);
     buildFor(*haptic_, settings);
 }
 
 SceneIdentity TouchedScene::identity() {
-    const std::lock_guard lock(building_);
+    const std::lock_guard lock(identifying_);
     if (identity_ == nullptr)
         identity_ = std::make_unique<const SceneIdentity>(identify(*haptic_, *source_, fit_));
     return *identity_;

@@ -39,8 +39,8 @@ class TouchedScene final : public Object {
     Fit fit_;
     std::shared_ptr<const HapticScene> haptic_;
     std::vector<std::string> warnings_;
-    std::mutex building_;
-    std::unique_ptr<const SceneIdentity> identity_; // guarded by building_
+    std::mutex building_, identifying_;
+    std::unique_ptr<const SceneIdentity> identity_; // guarded by identifying_
     struct LaidStroke {
         StrokeRequest request;
         std::shared_ptr<const StrokePath> path;

@@ -146,7 +146,7 @@ class TexelMapBuilder {
             high = std::max(high, row.corners[i].at.x);
         }
         Polygon beyond, square;
-        for (double x = std::floor(low); x <= high; x += 1.0) {
+        for (double x = std::floor(low); x <= high && looks_ <= mostLooks_; x += 1.0) {
             cut(row, 0, x, 1.0, beyond);
             cut(beyond, 0, x + 1.0, -1.0, square);
             for (size_t i = 2; i < square.count; ++i)

@@ -70,10 +70,9 @@ inline void publishForce(const HandTick& tick, const Similarity& workspaceFromRe
     if (share < 1.0)
         output.force *= share;
     if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
-        pushObjects(
-            workspaceFromReference, felt.force, bornByDevice(tick, felt, share),
-            {.velocity = travel / tick.dt, .stiffness = felt.stiffness, .most = tick.limits.maxForce},
-            *tick.parts, world);
+        pushObjects(workspaceFromReference, felt.force, bornByDevice(tick, felt, share),
+                    {.velocity = travel / tick.dt, .stiffness = felt.stiffness, .most = tick.limits.maxForce},
+                    *tick.parts, world);
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.

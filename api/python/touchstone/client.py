@@ -8,6 +8,7 @@
 """
 
 import base64
+import ipaddress
 import json
 import os
 import pathlib
@@ -51,6 +52,9 @@ class Client:
                 raise ValueError("token: is missing; it is in a file on the server's machine")
             self._place = (address.port or (443 if secure else 80), address.hostname)
             self._socket = socket.create_connection((address.hostname, self._place[0]), timeout)
+            if not secure and not ipaddress.ip_address(self._socket.getpeername()[0].split("%")[0]).is_loopback:
+                self._socket.close()
+                raise ValueError(f"where: {address.hostname} is another machine, to which the token would go in clear; use https")
         else:
             token, host, secure = "", "unix", False
             self._socket = socket.socket(socket.AF_UNIX)

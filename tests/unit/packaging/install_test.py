@@ -132,6 +132,7 @@ class Installed(unittest.TestCase):
             for allowed in (True, False):
                 server = subprocess.Popen([str(self.prefix / "bin/touchstone"), "serve", self.model, "--port", str(free_port()),
                                            *(["--origin", origin] if allowed else [])], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+                self.addCleanup(server.kill)
                 address, token = server.stdout.readline().strip().removeprefix("http://").split("/#")
                 browser, page = open_page(BROWSER, f"{origin}/force.html#{address},{token}", f"{folder}/{allowed}")
                 try:

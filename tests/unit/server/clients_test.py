@@ -1,6 +1,7 @@
 """`touchstone serve`: what clients may do, and that none of them harms the servo. Arguments as serving.py."""
 
 import base64
+import json
 import os
 import pathlib
 import socket
@@ -59,6 +60,11 @@ class Driving(Server):
         self.assertEqual(client.event("scene")["file"], "")
         client.ask("load", bytes=base64.b64encode(b"no model").decode())
         self.assertIn("error", client.event("error"))
+        # No stroke can be laid on a model without triangles: it is refused, and the plane is touched on.
+        empty = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{}], "scene": 0}
+        client.ask("load", bytes=base64.b64encode(json.dumps(empty).encode()).decode())
+        self.assertIn("error", client.event("error"))
+        self.touching(client)
         self.refused(client, "--allow-write", "record", file="a.tsrec")
 
     def test_refuses_what_is_no_message(self):
