@@ -148,15 +148,16 @@ TEST_F(HostilePrograms, InTheModelLeaveTheWindowAliveAndTheSurfacePlain) {
             EXPECT_NEAR(force() / plain, 1.0, 0.15) << hostile.name << ": plain";
         }
         const Json shown = status();
-        if (!hostile.compiles)
+        if (!hostile.compiles) {
             EXPECT_NE(shown["warnings"].dump().find("line " + std::to_string(hostile.line) + ": "),
                       std::string::npos)
                 << shown["warnings"];
-        else if (hostile.line > 0)
+        } else if (hostile.line > 0) {
             EXPECT_NE(
                 shown["widgets"]["programFault"].dump().find("line " + std::to_string(hostile.line) + ": "),
                 std::string::npos)
                 << hostile.name;
+        }
         keepPicture("file_" + hostile.name);
     }
     expectWithinLimits(recording);
