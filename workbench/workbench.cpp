@@ -104,6 +104,7 @@ void WorkbenchWindow::frame() {
     takeFile(start);
     leave();
     touch_.update(start);
+    materials_.programs().showFault(touch_.failing().program(), touch_.failing().fault());
     if (touch_.feelsWhole())
         materials_.programs().feltAt(materials_.touched(), secondsNow());
     if (!timeline_.looking())

@@ -36,15 +36,8 @@ void WorkbenchWindow::draw() {
         !ImGui::IsAnyMouseDown())
         remember();
 
-    if (hasModel()) {
-        showMaterials();
-        touch_.sculpt().update(state_.sculpt, !timeline_.looking());
-        touch_.sculpt().draw(screen_.renderer());
-        const bool recorded = timeline_.looking() && timeline_.modelIsOpen() && !timeline_.again().running();
-        touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer(),
-                    recorded ? timeline_.bodies() : std::span<const body::Pose>(),
-                    recorded ? timeline_.moved() : std::span<const DrivenPose>());
-    }
+    if (hasModel())
+        poseModel();
     const HapticSettings settings = shownSettings();
     const ModelPicture::Frame frame{
         .model = touch_.shown().model,
@@ -75,6 +68,16 @@ void WorkbenchWindow::draw() {
                     .validationMessages = screen_.validationMessages(),
                     .otherMaterials = drawn_.redraws(),
                     .programs = materials_.programs()});
+}
+
+void WorkbenchWindow::poseModel() {
+    showMaterials();
+    touch_.sculpt().update(state_.sculpt, !timeline_.looking());
+    touch_.sculpt().draw(screen_.renderer());
+    const bool recorded = timeline_.looking() && timeline_.modelIsOpen() && !timeline_.again().running();
+    touch_.pose(animationTime(shownSettings(), shownTick().time), screen_.renderer(),
+                recorded ? timeline_.bodies() : std::span<const body::Pose>(),
+                recorded ? timeline_.moved() : std::span<const DrivenPose>());
 }
 
 void WorkbenchWindow::showPart(const PixelRect& area, double points,
@@ -128,27 +131,36 @@ std::map<std::string, WidgetRect> WorkbenchWindow::drawMaterials(float scale) {
 
 PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     PanelInput input;
-    if (hasModel()) {
-        const Scene& scene = *touch_.shown().model.scene;
-        input.scene = &scene;
-        input.haptic = touch_.shown().model.haptic.get();
-        input.part = touch_.shown().model.part;
-        input.modelPath = materials_.path().string();
-        input.modelName = materials_.path().filename().string();
-        input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
-                           (scene.touchable() ? "" : ": nothing to touch");
-        for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
-            for (const Warning& warning : *warnings)
-                input.warnings.push_back((warning.place.empty() ? "" : warning.place + ": ") +
-                                         warning.message);
-        for (std::string& warning : settingWarnings(*input.haptic, state_.settings))
-            input.warnings.push_back(std::move(warning));
-        if (refusalOf(*input.haptic, state_.settings).empty() &&
-            has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
-            input.warnings.emplace_back("the contact method is being prepared: swept until then");
-    }
+    if (hasModel())
+        describeModel(input);
     input.problem = problem_;
     input.now = secondsNow();
+    describeFiles(input);
+    describeHand(input);
+    describePicture(sceneSize, input);
+    return input;
+}
+
+void WorkbenchWindow::describeModel(PanelInput& input) {
+    const Scene& scene = *touch_.shown().model.scene;
+    input.scene = &scene;
+    input.haptic = touch_.shown().model.haptic.get();
+    input.part = touch_.shown().model.part;
+    input.modelPath = materials_.path().string();
+    input.modelName = materials_.path().filename().string();
+    input.modelFacts = figure(static_cast<double>(scene.triangleCount()), 1) + " triangles" +
+                       (scene.touchable() ? "" : ": nothing to touch");
+    for (const auto* warnings : {&scene.warnings, &input.haptic->warnings})
+        for (const Warning& warning : *warnings)
+            input.warnings.push_back((warning.place.empty() ? "" : warning.place + ": ") + warning.message);
+    for (std::string& warning : settingWarnings(*input.haptic, state_.settings))
+        input.warnings.push_back(std::move(warning));
+    if (refusalOf(*input.haptic, state_.settings).empty() &&
+        has(touch_.figures().last.output.flags, TickFlag::NeighbourhoodMissing))
+        input.warnings.emplace_back("the contact method is being prepared: swept until then");
+}
+
+void WorkbenchWindow::describeFiles(PanelInput& input) {
     input.gallery = gallery_.entries();
     input.showPicture = [this](size_t place, const glm::vec2& from, const glm::vec2& to) {
         screen_.target().showPicture(place, from, to);
@@ -156,6 +168,7 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.recent = memory_.recent;
     input.samples = samples_;
     input.sampleNotes = sampleNotes_;
+    input.failing = &touch_.failing();
     input.materialNotice = materials_.notice();
     input.canSaveMaterials = materials_.canSaveInPlace();
     input.materialsEdited = materials_.edited();
@@ -174,6 +187,9 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.recording = recorder.recording();
     input.recordingFile = recorder.file().string();
     input.recordedSeconds = static_cast<double>(recorder.ticks()) / touch_.rateHz();
+}
+
+void WorkbenchWindow::describeHand(PanelInput& input) {
     input.canSimulate = touch_.shown().path != nullptr;
     input.strokeNotice = touch_.strokeNotice();
     input.devices = touch_.devices().offers();
@@ -189,6 +205,9 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     input.dialog = &dialog_;
     input.tick = timeline_.looking() ? &shownTick() : &touch_.figures().last;
     input.forces = &touch_.forces();
+}
+
+void WorkbenchWindow::describePicture(const glm::ivec2& sceneSize, PanelInput& input) {
     input.frames = screen_.target().statistics().framesPresented;
     input.framesPerSecond = pace_.rate();
     input.camera = view_.camera();
@@ -207,7 +226,6 @@ PanelInput WorkbenchWindow::panelInput(const glm::ivec2& sceneSize) {
     for (const std::string& warning : {memoryWarning_, window_.sizeWarning()})
         if (!warning.empty())
             input.warnings.push_back(warning);
-    return input;
 }
 
 void WorkbenchWindow::doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets) {

@@ -117,10 +117,17 @@ class WorkbenchWindow {
     void moveHand();
     void holdDevice();
     void draw();
+    /// Materials, sculpture and poses of the model, as they are drawn next.
+    void poseModel();
     /// Menu and keys that hide objects, and what they ask for.
     void showPart(const PixelRect& area, double points, std::map<std::string, WidgetRect>& rects);
     std::map<std::string, WidgetRect> drawMaterials(float scale);
     [[nodiscard]] PanelInput panelInput(const glm::ivec2& sceneSize);
+    // Parts of it:
+    void describeModel(PanelInput& input);
+    void describeFiles(PanelInput& input);
+    void describeHand(PanelInput& input);
+    void describePicture(const glm::ivec2& sceneSize, PanelInput& input);
     /// Handles the requests of this frame's buttons and menus.
     void doWhatWasAsked(const std::map<std::string, WidgetRect>& widgets);
     /// Of the hand in use: "mouse".

@@ -153,10 +153,17 @@ void printEffects(const TimedConfiguration& configuration, const ConfigurationTi
         verdicts.word(above <= bound));
 }
 
-Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
+/// What benchFast times: cases of tori, then one object and many, then pairs without and with all effects.
+struct FastBench {
     std::deque<BenchScene> scenes;
     std::vector<TimedConfiguration> configurations;
-    std::vector<const FastCase*> cases;
+    std::vector<const FastCase*> cases; ///< of the first configurations
+    size_t objects = 0, effects = 0;    ///< first configurations of objects and effects
+};
+
+FastBench fastBench(const BenchOptions& options) {
+    FastBench bench;
+    auto& [scenes, configurations, cases, objects, effects] = bench;
     for (const FastCase& fast : kFastCases) {
         if (fast.triangles > options.largestTriangles)
             continue;
@@ -172,7 +179,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         cases.push_back(&fast);
         configurations.push_back({scene->name, scene, bare(fast.radius), fast.speed});
     }
-    const size_t objectConfigurations = configurations.size();
+    objects = configurations.size();
     for (const size_t count : {size_t{1}, kObjects})
         scenes.push_back(sphereGridScene(count));
     const BenchScene *one = &scenes[scenes.size() - 2], *many = &scenes.back();
@@ -180,7 +187,7 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         for (const BenchScene* scene : {one, many})
             configurations.push_back({scene->name, scene, bare(radius), 0.1});
 
-    const size_t effectConfigurations = configurations.size();
+    effects = configurations.size();
     // The bare scene has no effect at all, not even a stiffness map, which no setting disables.
     scenes.push_back(torusScene(kEffectTriangles));
     scenes.push_back(torusWithAllEffects(kEffectTriangles));
@@ -190,15 +197,39 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
         configurations.push_back({"no effects", &scenes[scenes.size() - 2], bare(radius), 0.1});
         configurations.push_back({"all effects", &scenes.back(), all, 0.1});
     }
+    return bench;
+}
+
+/// Their figures as JSON; prints whether a tick allocates.
+Json fastJson(const FastBench& bench, const std::vector<ConfigurationTimes>& times, Verdicts& verdicts) {
+    const auto& cases = bench.cases;
+    Json json = Json::array();
+    uint64_t allocations = 0;
+    for (size_t i = 0; i < bench.configurations.size(); ++i) {
+        allocations += times[i].allocations;
+        json.push_back(rungJson(bench.configurations[i], times[i]));
+        if (i < cases.size() && cases[i]->raysBound > 0.0)
+            json.back()["bound_in_rays"] = cases[i]->raysBound;
+        if (i < cases.size() && cases[i]->tailBound > 0.0)
+            json.back()["bound_of_p99_in_rays"] = cases[i]->tailBound;
+    }
+    std::printf("allocations and frees in ticks: %llu, %s\n\n", static_cast<unsigned long long>(allocations),
+                realtime::allocationsAreCounted() ? verdicts.word(allocations == 0) : "not counted");
+    return json;
+}
+
+Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
+    const FastBench bench = fastBench(options);
+    const std::vector<TimedConfiguration>& configurations = bench.configurations;
     const std::vector<ConfigurationTimes> times = timeConfigurations(
         configurations, {.rounds = options.rounds, .ticksPerRound = 1000}, PercentLine("fast"));
     std::printf("| stroke 1 mm deep | step, median / p99, µs | ray, ns | in rays | p99 in rays | CHAI3D "
                 "3.3.0, µs |\n"
                 "|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < cases.size(); ++i)
-        printFast(*cases[i], times[i], verdicts);
+    for (size_t i = 0; i < bench.cases.size(); ++i)
+        printFast(*bench.cases[i], times[i], verdicts);
     std::string verdict;
-    for (size_t i = objectConfigurations; i < effectConfigurations; i += 2) {
+    for (size_t i = bench.objects; i < bench.effects; i += 2) {
         printObjects(configurations[i], times[i], "");
         printObjects(configurations[i + 1], times[i + 1], "204");
         const double ratio = medianRatio(times[i + 1], times[i]);
@@ -209,22 +240,10 @@ Json benchFast(const BenchOptions& options, Verdicts& verdicts) {
     }
     std::printf("\n%s", verdict.c_str());
     for (size_t i = 0; i < kEffectBounds.size(); ++i) {
-        const size_t at = effectConfigurations + 2 * i;
+        const size_t at = bench.effects + 2 * i;
         printEffects(configurations[at], times[at + 1], times[at], kEffectBounds[i].second, verdicts);
     }
-    Json json = Json::array();
-    uint64_t allocations = 0;
-    for (size_t i = 0; i < configurations.size(); ++i) {
-        allocations += times[i].allocations;
-        json.push_back(rungJson(configurations[i], times[i]));
-        if (i < cases.size() && cases[i]->raysBound > 0.0)
-            json.back()["bound_in_rays"] = cases[i]->raysBound;
-        if (i < cases.size() && cases[i]->tailBound > 0.0)
-            json.back()["bound_of_p99_in_rays"] = cases[i]->tailBound;
-    }
-    std::printf("allocations and frees in ticks: %llu, %s\n\n", static_cast<unsigned long long>(allocations),
-                realtime::allocationsAreCounted() ? verdicts.word(allocations == 0) : "not counted");
-    return json;
+    return fastJson(bench, times, verdicts);
 }
 
 /// A column of [000 Table I], or an additional one.

@@ -38,12 +38,13 @@ void printEffects(const Json& material) {
     if (material.contains("program")) {
         const Json& program = material["program"];
         std::printf("    program %s: %s instructions, %s registers; %s ns, with gradients %s ns, by central "
-                    "differences %s ns; spends %s of its budget of %s%s\n",
+                    "differences %s ns; spends %s of its budget of %s%s%s\n",
                     text(program["name"]).c_str(), text(program["instructions"]).c_str(),
                     text(program["registers"]).c_str(), text(program["ns_per_tick"]).c_str(),
                     text(program["ns_with_gradients"]).c_str(), text(program["ns_with_differences"]).c_str(),
                     text(program["cost"]).c_str(), text(program["budget"]).c_str(),
-                    program["flagged_share"] > 0.0 ? "; plain at places without a result" : "");
+                    program["flagged_share"] > 0.0 ? "; plain at places without a result: " : "",
+                    text(program["fault"]).c_str());
         if (program.contains("persistentTexture")) {
             const Json& texture = program["persistentTexture"];
             std::printf("      persistent texture of %s x %s texels on %s objects, %s bytes\n",
@@ -60,7 +61,8 @@ void printEffects(const Json& material) {
         print("    not yet available: %s\n", material["not_yet_available"].dump());
 }
 
-void printInspection(const Json& json) {
+/// What the file is made of.
+void printContents(const Json& json) {
     print("%s\n", text(json["scene"]));
     std::printf("  %s triangles in %s meshes, %s instances, %s materials, %s images\n",
                 text(json["triangles"]).c_str(), text(json["meshes"]).c_str(),
@@ -95,6 +97,10 @@ void printInspection(const Json& json) {
     for (const Json& camera : json["cameras"])
         std::printf("  camera %s '%s' at the node '%s', %s\n", text(camera["index"]).c_str(),
                     text(camera["name"]).c_str(), text(camera["node"]).c_str(), text(camera["type"]).c_str());
+}
+
+/// Its pictures and objects, as they are read for touch.
+void printParts(const Json& json) {
     const auto decoded = std::count_if(json["images"].begin(), json["images"].end(),
                                        [](const Json& image) { return image["decoded"].get<bool>(); });
     if (!json["images"].empty())
@@ -112,6 +118,10 @@ void printInspection(const Json& json) {
                         object["closed"].get<bool>() ? "closed" : "open",
                         text(object["welded_vertices"]).c_str(), text(object["dropped_triangles"]).c_str());
     print("%s", perceptionText(json["perception"]));
+}
+
+/// What it feels like, and what that costs.
+void printFeel(const Json& json) {
     for (const Json& material : json["materials"]) {
         print("  material %s '%s'\n", text(material["index"]), text(material["name"]));
         printEffects(material);
@@ -132,6 +142,12 @@ void printInspection(const Json& json) {
     if (const Json& slopes = json["slopes"]; slopes["memory_bytes"] > 0)
         std::printf("  textureGradient=precomputed would take %s bytes and %.3f s\n",
                     text(slopes["memory_bytes"]).c_str(), slopes["build_s"].get<double>());
+}
+
+void printInspection(const Json& json) {
+    printContents(json);
+    printParts(json);
+    printFeel(json);
     for (const Json& warning : json["warnings"])
         print("  warning: %s: %s\n", text(warning["place"]), text(warning["message"]));
 }

@@ -89,10 +89,8 @@ struct Touched {
     TickLook look;
 };
 
-} // namespace
-
-int renderCommand(const RenderOptions& options) {
-    const ViewMode mode = viewModeOf(options.view);
+/// Compiled for touch only where that is seen.
+Model modelToDraw(const RenderOptions& options, ViewMode mode) {
     LoadOptions loading;
     loading.iso = options.iso;
     loading.animation = options.animation;
@@ -107,6 +105,38 @@ int renderCommand(const RenderOptions& options) {
         model = loadModel(options.scene, Fit::Workspace, loading);
     takePart(model, partNamed(*model.scene, options.part));
     printWarnings(model);
+    return model;
+}
+
+/// `--slice`, into the overlay; returns its label.
+std::string drawSlice(const RenderOptions& options, const Model& model, Overlay& overlay) {
+    const FieldSlice slice{.axis = options.sliceAxis, .at = options.sliceAt};
+    const SliceFigures figures = drawFieldSlice(*model.haptic, slice, 1.0f, overlay);
+    if (figures.lines == 0)
+        throw Error(options.scene.string(), "", "has nothing in this slice that is felt as a field",
+                    "choose another --slice-at, or give a material the representation implicit "
+                    "(touchstone edit)");
+    std::printf("%s: %zu pieces of isolines, %zu arrows\n", figures.label(slice).c_str(), figures.lines,
+                figures.arrows);
+    return figures.label(slice);
+}
+
+/// In the lower left corner; empty: none.
+void writeLabel(PixelData& picture, const std::string& label, const glm::ivec2& size) {
+    if (label.empty())
+        return;
+    drawGui(picture, 1.0f, [&] {
+        ImGui::GetBackgroundDrawList()->AddText(
+            ImVec2(12.0f, static_cast<float>(size.y) - 12.0f - ImGui::GetTextLineHeight()),
+            IM_COL32(235, 238, 242, 255), label.c_str());
+    });
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    const ViewMode mode = viewModeOf(options.view);
+    Model model = modelToDraw(options, mode);
     const std::unique_ptr<Gpu> gpu = Gpu::headless(wholeMachine(options.gpu));
     SceneRenderer renderer(*gpu);
     lightWith(options.environment, renderer);
@@ -135,15 +165,8 @@ int renderCommand(const RenderOptions& options) {
     if (options.grid)
         label = grid.label();
     if (options.sliceAxis >= 0) {
-        const FieldSlice slice{.axis = options.sliceAxis, .at = options.sliceAt};
-        const SliceFigures figures = drawFieldSlice(*model.haptic, slice, 1.0f, overlay);
-        if (figures.lines == 0)
-            throw Error(options.scene.string(), "", "has nothing in this slice that is felt as a field",
-                        "choose another --slice-at, or give a material the representation implicit "
-                        "(touchstone edit)");
-        label += (label.empty() ? "" : "; ") + figures.label(slice);
-        std::printf("%s: %zu pieces of isolines, %zu arrows\n", figures.label(slice).c_str(), figures.lines,
-                    figures.arrows);
+        const std::string slice = drawSlice(options, model, overlay);
+        label += (label.empty() ? "" : "; ") + slice;
     }
     poseAt(options.time, *model.scene, renderer);
     if (options.touched) {
@@ -156,12 +179,7 @@ int renderCommand(const RenderOptions& options) {
         ShownTextures().show(*model.haptic, persistentTextures(*model.haptic).get(), renderer);
     }
     PixelData picture = renderStill(renderer, view, overlay, options.size.x, options.size.y);
-    if (!label.empty())
-        drawGui(picture, 1.0f, [&] {
-            ImGui::GetBackgroundDrawList()->AddText(
-                ImVec2(12.0f, static_cast<float>(options.size.y) - 12.0f - ImGui::GetTextLineHeight()),
-                IM_COL32(235, 238, 242, 255), label.c_str());
-        });
+    writeLabel(picture, label, options.size);
     writePicture(options.out, picture);
     std::printf("%d x %d pixels, written to %s\n", options.size.x, options.size.y, options.out.c_str());
     return 0;

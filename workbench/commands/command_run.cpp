@@ -298,11 +298,36 @@ void printResult(const RunResult& run) {
     printCoverage(*run.model.haptic, run.textures);
 }
 
-} // namespace
+void writeReport(OutputFile& file, const RunOptions& options, const RunResult& run) {
+    file.write(reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+               "\n");
+    file.commit();
+}
 
-int runCommand(const RunOptions& options) {
-    catchInterrupts();
-    RunHands hands(options);
+/// Throws where a simulated hand has not touched.
+void requireTouches(const RunOptions& options, const RunResult& run) {
+    for (size_t hand = 0; hand < run.hands.count(); ++hand)
+        if (run.hands.simulated(hand) &&
+            !(options.sculpt.wanted && hand == 0)) // it may carve away what it would touch
+            requireTouch(options.scene, options.stroke, run.hands.period(hand),
+                         run.frames.seconds - run.hands.wait(hand),
+                         run.reader.statistics[hand].contactTicks());
+}
+
+/// Compiles the pipelines, so that no later frame has to.
+void drawFirst(const RunOptions& options, const Model& model, const Gpu& gpu, SceneRenderer& renderer) {
+    lightWith(options.environment, renderer);
+    renderer.setScene(model.scene);
+    renderer.render(firstView(model, options.size), Overlay{}, options.size.x, options.size.y);
+    gpu.waitIdle();
+}
+
+void printValidation(const Gpu& gpu) {
+    for (const std::string& message : gpu.validationMessages())
+        std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
+}
+
+Model modelToRun(const RunOptions& options) {
     LoadOptions loading;
     loading.iso = options.iso;
     loading.animation = options.animation;
@@ -313,6 +338,15 @@ int runCommand(const RunOptions& options) {
     printWarnings(model);
     prepareFor(model, options.settings);
     model.haptic->buildRays(); // the report measures the proxy gap with Embree during the run
+    return model;
+}
+
+} // namespace
+
+int runCommand(const RunOptions& options) {
+    catchInterrupts();
+    RunHands hands(options);
+    Model model = modelToRun(options);
     std::vector<DevicePort> ports = hands.connect(model);
     std::optional<RunSculpt> sculpt;
     if (options.sculpt.wanted)
@@ -322,13 +356,10 @@ int runCommand(const RunOptions& options) {
         report.emplace(options.json);
     TickReader reader(model, options);
 
-    // The device is created before the servo thread; the first frame compiles the pipelines.
+    // The device is created before the servo thread.
     const std::unique_ptr<Gpu> gpu = Gpu::headless(gpuOptions(options.gpu));
     SceneRenderer renderer(*gpu);
-    lightWith(options.environment, renderer);
-    renderer.setScene(model.scene);
-    renderer.render(firstView(model, options.size), Overlay{}, options.size.x, options.size.y);
-    gpu->waitIdle();
+    drawFirst(options, model, *gpu, renderer);
 
     Session session(std::move(ports), {.rateHz = options.rateHz, .stageTimes = true});
     RecordingController controller(session.servo(), options.recording, "run");
@@ -354,8 +385,7 @@ int runCommand(const RunOptions& options) {
 
     if (!options.screenshot.empty())
         writeScreenshot(options, model, reader, renderer);
-    for (const std::string& message : gpu->validationMessages())
-        std::fprintf(stderr, "touchstone: validation: %s\n", message.c_str());
+    printValidation(*gpu);
     reader.commit();
     const RunResult run{model,
                         hands,
@@ -368,17 +398,10 @@ int runCommand(const RunOptions& options) {
                         stolen,
                         sculpt ? sculpt->json(session, frames.seconds) : nlohmann::ordered_json(),
                         controller.recorder().textures()};
-    if (report) {
-        report->write(
-            reportOf(options, run).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-            "\n");
-        report->commit();
-    }
+    if (report)
+        writeReport(*report, options, run);
     printResult(run);
-    for (size_t hand = 0; hand < hands.count(); ++hand)
-        if (hands.simulated(hand) && !(sculpt && hand == 0)) // it may carve away what it would touch
-            requireTouch(options.scene, options.stroke, hands.period(hand), frames.seconds - hands.wait(hand),
-                         reader.statistics[hand].contactTicks());
+    requireTouches(options, run);
     return controller.failed() ? 1 : 0;
 }
 

@@ -53,7 +53,8 @@ void print(const Json& json) {
                 number("ns_per_tick"), number("ns_with_gradients"), number("ns_with_differences"),
                 number("cost"), number("budget"));
     if (const double flagged = number("flagged_share"); flagged > 0.0)
-        std::printf("  without a result at %.0f %% of the places tried: plain there\n", 100.0 * flagged);
+        std::printf("  without a result at %.0f %% of the places tried, and plain there: %s\n",
+                    100.0 * flagged, json["fault"].get<std::string>().c_str());
     for (const Json& parameter : json["parameters"])
         std::printf("  parameter %s = %s, %g to %g %s  %s\n", parameter["name"].get<std::string>().c_str(),
                     parameter["default"].dump().c_str(), parameter["least"].get<double>(),
@@ -72,7 +73,7 @@ int inspectProgram(const std::filesystem::path& file, const std::filesystem::pat
     const program::RegisterProgram compiled =
         program::loadProgram(source, installedProgramCompiler(), [] { return false; });
     Json figures{{"program", file.string()}};
-    figures.update(programFigures(compiled));
+    figures.update(programFigures(compiled, source.text));
     figures["parameters"] = parametersOf(source);
     // A name that is not UTF-8 is replaced, so that the output stays valid.
     if (!json.empty())

@@ -242,6 +242,14 @@ void ProgramEditor::seenAt(uint64_t revision, double now) {
             sources_[s].seen = now - timings_[s].changed;
 }
 
+void ProgramEditor::showFault(const program::FeltProgram* failing, const program::ProgramFault& fault) {
+    for (EditedProgram& each : sources_) {
+        const bool fails = failing != nullptr && each.program != nullptr && failing->compiled == each.program;
+        if (fails || !each.fault.problem.empty())
+            each.fault = fails ? fault : program::ProgramFault();
+    }
+}
+
 /// Values that are not declared for the moment come back when they are again.
 HapticStatement ProgramEditor::withKeptValues(size_t material, HapticStatement statement, json stated) {
     json& unused = unused_[material];

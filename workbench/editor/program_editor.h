@@ -2,6 +2,7 @@
 // The haptic programs of a file while they are edited: in the window, or by another program that saves their
 // files. Without its user interface.
 
+#include "haptics/program/program_fault.h"
 #include "workbench/editor/material_edits.h"
 #include "workbench/editor/program_worker.h"
 
@@ -25,6 +26,7 @@ struct EditedProgram {
     std::string saved{};                             ///< as the file has it
     std::string problem{};                           ///< of `text`, with its remedy; empty: none
     unsigned line = 0;                               ///< of the problem, from 1; 0: none in particular
+    program::ProgramFault fault{};                   ///< of `program`, where it is touched; empty: none
     bool compiling = false;                          ///< `problem` is not that of `text` yet
     bool overtaken = false;                          ///< the file has changed beside what was typed here
     ProgramCost cost{};                              ///< of `program`
@@ -73,6 +75,8 @@ class ProgramEditor {
     void saved(const std::vector<std::string>& texts);
     /// The model was saved into another folder, and the files of its programs beside it.
     void moved(const std::filesystem::path& from, const std::filesystem::path& to);
+    /// Every frame: why `failing` has no result where it is touched; null: none fails.
+    void showFault(const program::FeltProgram* failing, const program::ProgramFault& fault);
     /// Increases with every text that is typed.
     [[nodiscard]] uint64_t revision() const { return revision_; }
 

@@ -53,7 +53,7 @@ double ageOf(std::filesystem::file_time_type written) {
 ProgramCost costOf(const SurfaceProgram& program) {
     program::RegisterProgram felt = program::translated(program.source, program.spirv);
     program::setParameters(felt, program.source.parameters);
-    const nlohmann::ordered_json figures = programFigures(felt);
+    const nlohmann::ordered_json figures = programFigures(felt, program.text);
     return {felt.instructions.size(), figures["ns_per_tick"].get<double>(),
             figures["ns_with_gradients"].get<double>()};
 }

@@ -134,7 +134,7 @@ Json programJson(const program::FeltProgram& program, const MaterialProgram& mat
             material.values[i].begin(),
             material.values[i].begin() + static_cast<std::ptrdiff_t>(declared[i].components));
     Json json{{"name", program.name}, {"displaces", program.displaces}};
-    json.update(programFigures(program.code));
+    json.update(programFigures(program.code, program.compiled->text));
     json["parameters"] = parameters;
     return json;
 }

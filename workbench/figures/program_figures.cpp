@@ -1,5 +1,6 @@
 #include "workbench/figures/program_figures.h"
 
+#include "haptics/program/program_fault.h"
 #include "haptics/program/program_touch.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ using program::ProgramGradient;
 struct Figures {
     double ns = 0.0; ///< of one call, of the fastest batch
     uint32_t cost = 0;
-    int flagged = 0; ///< calls without a result
+    int flagged = 0;           ///< calls without a result
+    program::ProgramEnd end{}; ///< of one of these
 };
 
 /// Touches a stroke over a patch of 50 mm, 2 mm deep.
@@ -40,7 +42,10 @@ Figures measure(const program::RegisterProgram& compiled, ProgramGradient gradie
                 .maxStiffness = 3000.0};
             const program::ProgramFelt felt = feelProgram(compiled, gradient, contact);
             figures.cost = std::max(figures.cost, felt.cost);
-            flagged += felt.ending != program::Ending::Finished ? 1 : 0;
+            if (felt.ending == program::Ending::Finished)
+                continue;
+            ++flagged;
+            figures.end = {felt.ending, felt.at};
         }
         const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
         figures.ns = std::min(figures.ns, time.count() / kCalls);
@@ -51,7 +56,7 @@ Figures measure(const program::RegisterProgram& compiled, ProgramGradient gradie
 
 } // namespace
 
-nlohmann::ordered_json programFigures(const program::RegisterProgram& compiled) {
+nlohmann::ordered_json programFigures(const program::RegisterProgram& compiled, std::string_view source) {
     const Figures plain = measure(compiled, ProgramGradient::None),
                   dual = measure(compiled, ProgramGradient::Dual),
                   central = measure(compiled, ProgramGradient::Central);
@@ -62,7 +67,8 @@ nlohmann::ordered_json programFigures(const program::RegisterProgram& compiled) 
             {"ns_with_differences", std::round(central.ns)},
             {"cost", plain.cost},
             {"budget", program::kBudget},
-            {"flagged_share", static_cast<double>(dual.flagged) / 500.0}};
+            {"flagged_share", static_cast<double>(dual.flagged) / 500.0},
+            {"fault", program::textOf(program::faultOf(compiled, source, dual.end))}};
 }
 
 } // namespace touchstone

@@ -1,15 +1,11 @@
 #include "workbench/options/command_options.h"
 
 #include "haptics/servo/servo_loop.h"
-#include "renderer/view.h"
-#include "workbench/editor/haptic_fields.h"
-#include "workbench/editor/presets.h"
 #include "workbench/figures/ui_scale.h"
 #include "workbench/options/number_range.h"
 #include "workbench/options/shared_options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -19,21 +15,6 @@
 namespace touchstone {
 
 namespace {
-
-/// "2/8"
-void parseShard(const std::string& text, StudyCommandOptions& options) {
-    const size_t slash = text.find('/');
-    int shard = 0, shards = 0;
-    const auto whole = [](std::string_view part, int& number) {
-        const auto read = std::from_chars(part.data(), part.data() + part.size(), number);
-        return read.ec == std::errc{} && read.ptr == part.data() + part.size();
-    };
-    if (slash == std::string::npos || !whole(std::string_view(text).substr(0, slash), shard) ||
-        !whole(std::string_view(text).substr(slash + 1), shards) || shard < 1 || shard > shards)
-        throw CLI::ValidationError("--shard", "'" + text + "' is no share; write I/N, I from 1 to N");
-    options.shard = shard;
-    options.shards = shards;
-}
 
 /// "friction=off texture=off", with blanks or commas between.
 ComparedSettings comparedSettings(const std::string& text) {
@@ -226,16 +207,6 @@ void addSculpt(CLI::App& app, SculptOptions& options) {
     addSculpted(app, options.files)->needs(sculpt);
 }
 
-/// --seconds, and what else has no meaning without a stroke.
-void addStrokeSeconds(CLI::App& app, double& seconds, CLI::Option* stroke) {
-    app.add_option("--seconds", seconds, "How long it strokes [once round]")
-        ->type_name("S")
-        ->check(within(0.01, 86400.0))
-        ->needs(stroke);
-    for (const char* of : {"--stroke-speed", "--stroke-depth"})
-        app.get_option(of)->needs(stroke);
-}
-
 } // namespace
 
 void defineRun(CLI::App& app, RunOptions& options) {
@@ -366,175 +337,6 @@ void defineReplay(CLI::App& app, ReplayOptions& options) {
         ->type_name("SCENE")
         ->expected(1)
         ->take_all();
-}
-
-void defineEdit(CLI::App& app, EditOptions& options) {
-    addScene(app, options.scene)->required();
-    app.add_option("--material", options.materials,
-                   "Which one: its name, its index in the file, or all; may be given again. Not needed where "
-                   "the file has only one")
-        ->type_name("NAME")
-        ->expected(1)
-        ->take_all();
-    std::vector<std::string> presets;
-    for (const MaterialPreset& preset : materialPresets())
-        presets.emplace_back(preset.name);
-    app.add_option("--preset", options.preset, "Numbers to begin with; maps stay as they are")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(presets));
-    app.add_flag("--reset", options.reset, "First take out all that the file says of how it feels");
-    app.add_option("--reset-field", options.resetFields, "Take out one field; may be given again")
-        ->type_name("NAME")
-        ->expected(1)
-        ->take_all()
-        ->check([](const std::string& name) {
-            return name == "shader" || name.starts_with("shader.") || name == "textureMapping"
-                       ? std::string()
-                       : hapticFieldProblem(name);
-        });
-    addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
-                   [&options](std::string_view name, std::string_view value) {
-                       options.fields.emplace_back(name, value);
-                       return hapticValueProblem(name, value);
-                   });
-    app.add_option("--out", options.out, "Save here; without it into the model's own file")
-        ->type_name("FILE");
-}
-
-void defineRender(CLI::App& app, RenderOptions& options) {
-    addScene(app, options.scene)->required();
-    addIso(app, options.iso);
-    addAnimation(app, options.animation);
-    addPicture(app, "--out", options.out, "The picture: PNG or JPEG")->required();
-    app.add_option("--time", options.time, "Of the scene's animation, s [0]")->type_name("S");
-    addSize(app, "--size", options.size, "Size of the picture [1280x720]");
-    std::vector<std::string> views;
-    for (const std::string_view name : kViewModeNames)
-        views.emplace_back(name);
-    app.add_option("--view", options.view, "What is shown: the look, or a map of what is felt [shaded]")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(views));
-    app.add_flag("--wireframe", options.wireframe, "Draw the edges of the triangles over the surface");
-    app.add_flag("--grid", options.grid, "Draw a grid on the ground; its spacing stands in the picture");
-    CLI::Option* const slice =
-        app.add_option_function<std::string>(
-               "--slice", [&options](const std::string& axis) { options.sliceAxis = axis[0] - 'x'; },
-               "Draw what is felt as a field in a slice across this axis of the scene: isolines of the "
-               "distance and arrows along the gradient")
-            ->type_name("AXIS")
-            ->check(CLI::IsMember({"x", "y", "z"}));
-    app.add_option("--slice-at", options.sliceAt, "Its place, from one end of the field to the other [0.5]")
-        ->type_name("0..1")
-        ->check(within(0.0, 1.0))
-        ->needs(slice);
-    CLI::Option* stroke =
-        addStroke(app, options.stroke,
-                  "Touch the model before, at 1000 Hz, by a stroke (listed at the end of touch "
-                  "--help): shows the hand where it ends, and what it has worn off");
-    addStrokeSeconds(app, options.seconds, stroke);
-    stroke->each([&options](const std::string&) { options.touched = true; });
-    addCamera(app, options.camera);
-    addPart(app, options.part);
-    addEnvironment(app, options.environment);
-    addGpu(app, options.gpu);
-}
-
-void defineInspect(CLI::App& app, InspectOptions& options) {
-    addScene(app, options.scene)->required();
-    addIso(app, options.iso);
-    addAnimation(app, options.animation);
-    app.add_option("--json", options.json, "Write the answer here, as JSON")->type_name("FILE");
-}
-
-void defineSimplify(CLI::App& app, SimplifyOptions& options) {
-    addScene(app, options.scene)->required();
-    addIso(app, options.iso);
-    app.add_option("--threshold", options.degrees,
-                   "Nine smooth edges of ten are to stay within this angle between facets, degrees; [004] "
-                   "found 0.2 to 14.8 for one cylinder (inspect)")
-        ->type_name("DEG")
-        ->required()
-        ->check(within(0.01, 90.0));
-    app.add_option("--out", options.out,
-                   "Write the model here, as GLB: the static pose's triangles with the names of their "
-                   "materials; without it the figures alone")
-        ->type_name("FILE")
-        ->check([](const std::string& file) {
-            return std::filesystem::path(file).extension() == ".glb" ? std::string()
-                                                                     : file + " does not end in .glb";
-        });
-}
-
-void defineBench(CLI::App& app, BenchOptions& options) {
-    app.add_option(
-           "WHAT", options.what,
-           "fast: the bounds of a tick in rays; growth: its time over the number of triangles; moving: "
-           "a thousand objects that move, and objects that close on the hand; all of these without it; "
-           "protocol: the servo rates of [000 Table I] as they were measured, three runs of three minutes")
-        ->type_name("")
-        ->check(CLI::IsMember({"fast", "growth", "moving", "protocol"}));
-    app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
-    app.add_option("--largest", options.largestTriangles,
-                   "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")
-        ->type_name("N");
-    app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
-        ->type_name("N")
-        ->check(CLI::Range(1, 10000));
-    app.add_option("--seconds", options.seconds, "protocol: of each run [180]")
-        ->type_name("S")
-        ->check(within(0.05, 3600.0));
-    app.add_option("--runs", options.runs, "protocol: runs of each object [3]")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100));
-    app.add_flag("--check", options.check, "Exit status 1 where a bound is missed");
-}
-
-void defineStudy(CLI::App& app, StudyCommandOptions& options) {
-    app.add_option(
-           "WHAT", options.what,
-           "Shapes (plane, relief, sphere, cylinder, torus, waves, wedge), models, folders of them, "
-           "`rate`, the servo's, and `voxel`, those of distance fields; without any, every shape, the rate "
-           "and the voxels")
-        ->type_name("");
-    app.add_option("--out", options.out, "Folder for study.csv, study.json and plots/")->type_name("DIR");
-    app.add_option("--ladder", options.ablations, "This ablation alone (see --list); may be given again")
-        ->type_name("NAME")
-        ->expected(1)
-        ->take_all();
-    app.add_option("--rounds", options.rounds, "Turns that every configuration takes [150]")
-        ->type_name("N")
-        ->check(CLI::Range(2, 10000));
-    app.add_flag("--quick", options.quick, "A rougher answer in less time");
-    app.add_option("--finest", options.finestVoxel,
-                   "voxel: the finest field has at most this many voxels on a shape's diagonal, from 64 on "
-                   "in powers of "
-                   "two [512]; 1024 takes 3 GB and some minutes")
-        ->type_name("N")
-        ->check(CLI::Range(64, 2048));
-    app.add_flag("--list", options.list, "Print the ablations and shapes");
-    app.add_option_function<std::string>(
-           "--shard", [&options](const std::string& text) { parseShard(text, options); },
-           "Study every N-th of what is asked for only, from the I-th, and leave plots to `study merge`: for "
-           "GNU parallel and job arrays")
-        ->type_name("I/N");
-    app.parse_complete_callback([&app, &options] {
-        if (options.out.empty() && !options.list && app.get_subcommands().empty())
-            throw CLI::RequiredError("--out");
-    });
-}
-
-void defineCompare(CLI::App& app, StudyCompareOptions& options) {
-    app.add_option("A", options.first, "study.json of one run")->type_name("")->required();
-    app.add_option("B", options.second, "study.json of another")->type_name("")->required();
-}
-
-void defineMerge(CLI::App& app, StudyMergeOptions& options) {
-    app.add_option("PART", options.parts, "Folders that `study --shard` wrote (or study.json files)")
-        ->type_name("")
-        ->required();
-    app.add_option("--out", options.out, "Folder for the whole study and its plots")
-        ->type_name("DIR")
-        ->required();
 }
 
 } // namespace touchstone

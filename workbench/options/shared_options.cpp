@@ -275,6 +275,15 @@ CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& 
     return name;
 }
 
+void addStrokeSeconds(CLI::App& app, double& seconds, CLI::Option* stroke) {
+    app.add_option("--seconds", seconds, "How long it strokes [once round]")
+        ->type_name("S")
+        ->check(within(0.01, 86400.0))
+        ->needs(stroke);
+    for (const char* of : {"--stroke-speed", "--stroke-depth"})
+        app.get_option(of)->needs(stroke);
+}
+
 void addZoom(CLI::App& app, double& zoom) {
     app.add_option(
            "--workspace-scale", zoom,

@@ -43,6 +43,8 @@ void addSettings(CLI::App& app, HapticSettings& settings);
 /// options, SCENE.
 CLI::Option* addPlant(CLI::App& app, PlantParameters& plant);
 CLI::Option* addStroke(CLI::App& app, StrokeRequest& stroke, const std::string& meaning);
+/// --seconds, and what else has no meaning without a stroke.
+void addStrokeSeconds(CLI::App& app, double& seconds, CLI::Option* stroke);
 void addZoom(CLI::App& app, double& zoom);
 void addRate(CLI::App& app, double& rate, const std::string& meaning);
 void addGpu(CLI::App& app, std::string& gpu);

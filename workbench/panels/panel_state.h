@@ -28,6 +28,7 @@
 
 namespace touchstone {
 
+class FailingProgram; // workbench/readings/failing_program.h
 class FileDialog;
 class HapticScene;
 class PersistentTextures; // haptics/texture/persistent_textures.h
@@ -55,6 +56,8 @@ struct PanelInput {
     std::string recordingFile; ///< the last one; empty: none yet
     double recordedSeconds = 0.0;
     /// Of the material editor.
+    const FailingProgram* failing =
+        nullptr;                   ///< program without a result where it is touched; null: not known
     std::string materialNotice;    ///< result of the last save or change; empty: none
     bool canSaveMaterials = false; ///< to the open file
     bool materialsEdited = false, materialsWorking = false; ///< unsaved; not in effect yet

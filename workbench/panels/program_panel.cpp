@@ -155,6 +155,8 @@ void drawProgram(size_t material, MaterialController& controller, ProgramPanelSt
     if (const std::string problem = problemText(*program); !problem.empty())
         widgets.wrapped(problem + (program->program != nullptr ? "; the last good program stays" : ""),
                         kFailure);
+    else if (!program->fault.problem.empty())
+        widgets.wrapped(program::textOf(program->fault) + "; the surface is plain", kFailure);
     if (now.program != nullptr)
         ProgramRows(material, edits, widgets).draw();
     ImGui::Spacing();

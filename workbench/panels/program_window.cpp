@@ -48,6 +48,10 @@ void outcome(const EditedProgram& program, Widgets& widgets) {
                                                                            : "; the surface is plain"),
                         kFailure);
         widgets.mark("program.problem", problemText(program));
+    } else if (!program.fault.problem.empty()) {
+        const std::string text = program::textOf(program.fault);
+        widgets.wrapped(text + "; the surface is plain", kFailure);
+        widgets.mark("program.fault", text);
     } else if (program.felt >= 0.0 && program.seen >= 0.0) {
         widgets.wrapped("felt after " + figure(program.felt, 2) + " s, seen after " +
                             figure(program.seen, 2) + " s" + (program.edited() ? "; not saved" : ""),
@@ -58,9 +62,24 @@ void outcome(const EditedProgram& program, Widgets& widgets) {
     }
 }
 
+/// What stands at a line of the text: that it does not compile, or else why it has no result.
+struct LineNote {
+    size_t line = 0; ///< from 1; 0: none
+    std::string text{};
+};
+
+LineNote noteOf(const EditedProgram& program) {
+    if (program.compiling)
+        return {};
+    const bool compiles = program.problem.empty();
+    const std::string& problem = compiles ? program.fault.problem : program.problem;
+    return {compiles ? program.fault.line : program.line, problem.substr(0, problem.find(';'))};
+}
+
 /// Numbers of the lines left of the text, and the problem behind its line. `shown`: the child that scrolls
 /// the text.
 void annotate(const EditedProgram& program, const ImGuiWindow& shown, float left) {
+    const LineNote note = noteOf(program);
     const float height = ImGui::GetTextLineHeight();
     const ImRect clip = shown.InnerClipRect;
     const float top = shown.Pos.y + ImGui::GetStyle().FramePadding.y - shown.Scroll.y;
@@ -75,25 +94,24 @@ void annotate(const EditedProgram& program, const ImGuiWindow& shown, float left
         if (y + height > clip.Max.y || y < clip.Min.y)
             continue; // whole numbers only
         const std::string number = std::to_string(line);
-        const bool wrong = line == program.line;
+        const bool wrong = line == note.line;
         if (wrong)
             draw.AddRectFilled({left, y}, {shown.Pos.x, y + height}, kWrongLine);
         draw.AddText({shown.Pos.x - height * 0.4f - ImGui::CalcTextSize(number.c_str()).x, y},
                      wrong ? kFailure : kLineNumber, number.c_str());
     }
     draw.PopClipRect();
-    if (program.line == 0 || program.compiling)
+    if (note.line == 0)
         return;
-    const std::string_view own = lineOf(program.text, program.line);
+    const std::string_view own = lineOf(program.text, note.line);
     const float space = 0.5f * height;
     const float end = clip.Min.x + ImGui::GetStyle().FramePadding.x +
                       ImGui::CalcTextSize(own.data(), own.data() + own.size()).x + 2.0f * space;
-    const std::string text = program.problem.substr(0, program.problem.find(';'));
     const float room = clip.Max.x - clip.Min.x - 2.0f * space;
-    const std::string message = shortened(text, room);
+    const std::string message = shortened(note.text, room);
     const float width = ImGui::CalcTextSize(message.c_str()).x;
     const float x = std::max(clip.Min.x + space, std::min(end, clip.Max.x - width - space));
-    float y = top + height * static_cast<float>(program.line - 1);
+    float y = top + height * static_cast<float>(note.line - 1);
     if (x < end) // no room behind it
         y += height;
     if (y < clip.Min.y || y + height > clip.Max.y)

@@ -1,8 +1,10 @@
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
 #include "workbench/figures/texture_figures.h"
+#include "workbench/panels/colors.h"
 #include "workbench/panels/panels.h"
 #include "workbench/readings/active_effects.h"
+#include "workbench/readings/failing_program.h"
 
 #include <imgui.h>
 
@@ -54,6 +56,17 @@ void coverage(const PanelInput& input, int material, Widgets& widgets) {
     }
 }
 
+/// Why the program of the material has no result where it is touched.
+void programFault(const PanelInput& input, const HapticMaterialData& material, Widgets& widgets) {
+    if (input.failing == nullptr || input.failing->program() == nullptr ||
+        input.failing->program() != material.program.get())
+        return;
+    const std::string text = input.failing->program()->name + ": " + program::textOf(input.failing->fault()) +
+                             "; the surface is plain";
+    widgets.wrapped(text, kFailure);
+    widgets.mark("programFault", text);
+}
+
 /// Effects with their reasons beneath; reasons of those that the scene does not call for as tooltips.
 void effects(const std::vector<ActiveEffect>& effects, Widgets& widgets) {
     using State = ActiveEffect::State;
@@ -89,6 +102,7 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets) {
     widgets.mark("material");
     figures(input.haptic->materials[at], widgets);
     coverage(input, index, widgets);
+    programFault(input, input.haptic->materials[at], widgets);
     effects(activeEffects(input.haptic->plan, index, state.settings), widgets);
 }
 

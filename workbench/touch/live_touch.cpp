@@ -18,6 +18,7 @@ LiveTouch::LiveTouch(const WindowOptions& options, std::function<void(const std:
       readings_(session_.servo(), controller_.recorder()) {
     session_.subscribe(controller_);
     session_.subscribe(readings_);
+    session_.subscribe(failing_);
     session_.subscribe(sculpt_);
     session_.subscribe(others_);
     sound_.hear(session_.servo().impact());

@@ -17,6 +17,7 @@
 #include "workbench/model/model_loader.h"
 #include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
+#include "workbench/readings/failing_program.h"
 #include "workbench/readings/window_readings.h"
 #include "workbench/sculpt/sculpt_controller.h"
 #include "workbench/sound/sound_controller.h"
@@ -100,6 +101,7 @@ class LiveTouch {
     [[nodiscard]] double rateHz() const { return session_.servo().rateHz(); }
     [[nodiscard]] const ServoView& figures() const { return readings_.servo(); }
     [[nodiscard]] const ForceHistory& forces() const { return readings_.forces(); }
+    [[nodiscard]] const FailingProgram& failing() const { return failing_; }
     [[nodiscard]] DeviceMultiplexer& hand() { return hand_; }
     [[nodiscard]] OtherHands& otherHands() { return others_; }
     /// What the contact location display of the device in use shows, m; none without one.
@@ -127,6 +129,7 @@ class LiveTouch {
     Session session_;
     RecordingController controller_;
     WindowReadings readings_;
+    FailingProgram failing_;
     LoadedModel shown_;
     Model whole_;
     std::shared_ptr<const HapticScene> felt_; // what the felt scene is a part of
