@@ -17,7 +17,7 @@ namespace touchstone::server {
 class OfflineTouch {
   public:
     OfflineTouch() = default;
-    /// Waits for the next 4096 ticks.
+    /// Waits until the stroke is laid, and then for the next 4096 ticks.
     ~OfflineTouch() { stop(); }
     OfflineTouch(const OfflineTouch&) = delete;
     OfflineTouch& operator=(const OfflineTouch&) = delete;
@@ -28,8 +28,8 @@ class OfflineTouch {
         ts::Ticks ticks;
         std::string error; ///< empty: none
     };
-    /// The message has `stroke` or `positions`, optional `rate` and `settings`. The path goes on where the
-    /// scene is closed meanwhile. Throws Refusal.
+    /// The message has `stroke` or `positions`, optional `rate` and `settings`. Where the
+    /// scene is closed before its stroke is laid, `Made::error` says so. Throws Refusal.
     void begin(const Json& message, uint64_t client, ts_scene scene);
     /// Of a client that has gone; nothing where it is another one's.
     void forget(uint64_t client);
