@@ -1,5 +1,6 @@
 #include "workbench/guards/crash_note.h"
 
+#include <execinfo.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -17,16 +18,27 @@ std::array<std::array<char, 1024>, 2> texts;
 std::atomic<const char*> current{nullptr};
 std::atomic<size_t> length{0};
 
-// Async-signal-safe calls only. The signal is raised again with its default action (SA_RESETHAND).
+constexpr int kFrames = 48;
+constexpr unsigned kPatience = 2; // s
+
+// Async-signal-safe calls only, but for the unwinder, which takes the loader's lock: where the crash holds it
+// an alarm ends the process. The signal is raised again with its default action (SA_RESETHAND).
 extern "C" void onCrash(int signal) {
     const char* text = current.load();
     if (text != nullptr) {
         [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text, length.load());
     }
+    ::signal(SIGALRM, SIG_DFL);
+    alarm(kPatience);
+    std::array<void*, kFrames> frames{};
+    const int found = backtrace(frames.data(), kFrames);
+    backtrace_symbols_fd(frames.data(), found, STDERR_FILENO);
     raise(signal);
 }
 
 void catchCrashes() {
+    void* frame = nullptr;
+    backtrace(&frame, 1); // loads the unwinder, which a handler must not do
     struct sigaction action {};
     action.sa_handler = onCrash;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);

@@ -130,6 +130,7 @@ TEST_F(ProcessFaults, ACrashSaysWhereTheLastSecondsAre) {
     const std::string said = readFile(scratch_ / "log");
     EXPECT_NE(said.find("touchstone: crashed"), std::string::npos) << said;
     EXPECT_NE(said.find((scratch_ / "flight/live-").string()), std::string::npos) << said;
+    EXPECT_NE(said.find("bin/touchstone(+0x"), std::string::npos) << "the calls that led there: " << said;
     replay(true);
 }
 
