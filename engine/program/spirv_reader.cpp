@@ -86,10 +86,10 @@ class Reader {
             module_.strings[at.result] = textOf(at.operands_);
             break;
         case spv::OpName:
-            module_.names[at.operand(0)] = textOf(at.operands_.subspan(1));
+            module_.names[at.operand(0)] = textOf(at.operandsFrom(1));
             break;
         case spv::OpMemberName:
-            module_.memberNames[{at.operand(0), at.operand(1)}] = textOf(at.operands_.subspan(2));
+            module_.memberNames[{at.operand(0), at.operand(1)}] = textOf(at.operandsFrom(2));
             break;
         case spv::OpDecorate:
             if (at.operand(1) == spv::DecorationLocation)
@@ -128,6 +128,12 @@ uint32_t SpirvInstruction::operand(size_t i) const {
     if (i >= operands_.size())
         throw Refusal("is a damaged SPIR-V module", kDamaged);
     return operands_[i];
+}
+
+std::span<const uint32_t> SpirvInstruction::operandsFrom(size_t i) const {
+    if (i > operands_.size())
+        throw Refusal("is a damaged SPIR-V module", kDamaged);
+    return operands_.subspan(i);
 }
 
 SourceLine SpirvModule::placeOf(const SpirvInstruction& at) const {

@@ -42,6 +42,8 @@ struct SpirvInstruction {
 
     /// Operand i after type and result. Throws Refusal where there is none.
     [[nodiscard]] uint32_t operand(size_t i) const;
+    /// That operand and all behind it; none where there are i. Throws Refusal where there are fewer.
+    [[nodiscard]] std::span<const uint32_t> operandsFrom(size_t i) const;
     [[nodiscard]] size_t operands() const { return operands_.size(); }
     std::span<const uint32_t> operands_;
 };

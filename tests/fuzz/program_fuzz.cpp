@@ -4,12 +4,14 @@
 // address and undefined behaviour sanitizers in every preset.
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
+#include "engine/program/spirv_reader.h"
 #include "haptics/program/executor.h"
 #include "haptics/program/load_program.h"
 #include "haptics/program/program_touch.h"
 #include "haptics/program/translator.h"
 #include "renderer/program/link_program.h"
 
+#include <glslang/SPIRV/spirv.hpp>
 #include <gtest/gtest.h>
 #include <spirv-tools/libspirv.hpp>
 
@@ -252,6 +254,19 @@ void fuzz(unsigned seed, int trials) {
     std::printf("%d of %d modules accepted and run\n", accepted, trials);
     ASSERT_GT(accepted, 0);
     ASSERT_LT(accepted, trials);
+}
+
+/// Names, places and entries without their operands at the very end of a module, where reading on is an error of
+/// memory.
+TEST(ProgramFuzz, InstructionsThatAreCutOffAreRefused) {
+    for (const uint32_t code : {spv::OpLine, spv::OpString, spv::OpName, spv::OpMemberName, spv::OpDecorate,
+                                spv::OpExtInstImport, spv::OpEntryPoint})
+        for (uint32_t count = 1; count <= 2; ++count) {
+            std::vector<uint32_t> words{spv::MagicNumber, 0x10000u, 0, 64, 0, count << 16 | code};
+            words.resize(words.size() + count - 1, 1u);
+            words.shrink_to_fit();
+            EXPECT_THROW((void)readSpirv(words), Refusal) << code << " of " << count;
+        }
 }
 
 TEST(ProgramFuzz, MutatedModulesAreRefusedOrRunWithinTheBudget) {
