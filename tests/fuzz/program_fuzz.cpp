@@ -256,8 +256,8 @@ void fuzz(unsigned seed, int trials) {
     ASSERT_LT(accepted, trials);
 }
 
-/// Names, places and entries without their operands at the very end of a module, where reading on is an error of
-/// memory.
+/// Names, places and entries without their operands at the very end of a module, where reading on is an error
+/// of memory.
 TEST(ProgramFuzz, InstructionsThatAreCutOffAreRefused) {
     for (const uint32_t code : {spv::OpLine, spv::OpString, spv::OpName, spv::OpMemberName, spv::OpDecorate,
                                 spv::OpExtInstImport, spv::OpEntryPoint})
