@@ -46,5 +46,28 @@ TEST(TestFiles, AreAllBuilt) {
     EXPECT_GT(files, 100u);
 }
 
+/// An entry for a line that has moved or changed says nothing: tools/mutate looks for file and line.
+TEST(EquivalentMutants, NameLinesThatThereAre) {
+    const fs::path root = TOUCHSTONE_SOURCE;
+    std::ifstream list(root / "tools/mutate_equivalent.txt");
+    size_t entries = 0;
+    for (std::string entry; std::getline(list, entry);) {
+        if (entry.empty() || entry[0] == '#')
+            continue;
+        ++entries;
+        const size_t first = entry.find('\t'), second = entry.find('\t', first + 1);
+        ASSERT_NE(second, std::string::npos) << entry;
+        const std::string wanted = entry.substr(first + 1, second - first - 1);
+        std::ifstream source(root / entry.substr(0, first));
+        bool found = false;
+        for (std::string line; !found && std::getline(source, line);) {
+            const size_t begin = line.find_first_not_of(' ');
+            found = begin != std::string::npos && line.substr(begin) == wanted;
+        }
+        EXPECT_TRUE(found) << entry;
+    }
+    EXPECT_GT(entries, 50u);
+}
+
 } // namespace
 } // namespace touchstone
