@@ -48,7 +48,9 @@ bool isBelow(const fs::path& root, const fs::path& file) {
 bool isOrigin(std::string_view origin) {
     const size_t scheme = origin.starts_with("http://") ? 7 : origin.starts_with("https://") ? 8 : 0;
     const std::string_view host = origin.substr(scheme);
-    return scheme > 0 && !host.empty() &&
+    // Browsers leave the usual port out: with it no page's origin would ever be this one.
+    const bool usual = host.ends_with(scheme == 7 ? ":80" : ":443");
+    return scheme > 0 && !host.empty() && !usual &&
            host.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-:[]") == std::string_view::npos;
 }
 

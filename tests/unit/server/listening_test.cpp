@@ -61,6 +61,8 @@ TEST(Listening, NamesAreOwn) {
 
 TEST(Listening, OtherPagesNeedTheirOrigin) {
     ServeOptions options = at("127.0.0.1");
+    options.origins = {"http://a:443", "https://a:80", "http://a:8080"}; // not the usual port of each
+    EXPECT_EQ(listenProblem(options), "");
     options.origins = {"http://localhost:8000", "https://lab.example"};
     EXPECT_EQ(listenProblem(options), "");
     const OwnNames names = ownNames(options);
@@ -71,7 +73,7 @@ TEST(Listening, OtherPagesNeedTheirOrigin) {
         EXPECT_FALSE(isOwnOrigin(origin, names)) << origin;
     EXPECT_FALSE(isOwnHost("localhost:8000", names)) << "a page's place is no name of the server's";
     for (const char* wrong : {"", "null", "*", "localhost:8000", "http://", "http://a/", "http://A",
-                              "ftp://a", "http://a b", "http://*.example"}) {
+                              "ftp://a", "http://a b", "http://*.example", "http://a:80", "https://a:443"}) {
         options.origins = {wrong};
         EXPECT_NE(listenProblem(options).find("no origin"), std::string::npos) << wrong;
     }
