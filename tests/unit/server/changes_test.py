@@ -199,8 +199,17 @@ class Offline(Server):
     def test_one_at_a_time_and_none_for_who_has_gone(self):
         client, other = self.client(), self.client(self.path)
         self.touching(client)
-        many = numpy.repeat([[0.0, 0.05, 0.0]], 100_000, axis=0)
-        other.send(json.dumps(dict(id=1, do="touch", positions=many.tolist())).encode())
+        many = numpy.repeat([[0.0, 0.05, 0.0]], 100_000, axis=0).tolist()
+        for _ in range(20):  # a path may be over before the other client asks
+            other.ask("touch", positions=many)
+            try:
+                client.touch(stroke="circle")
+            except ServerError as error:
+                self.assertIn("another path", str(error))
+                break
+            other.event("touched")
+        else:
+            self.fail("two paths at a time")
         other.close()
         end = time.monotonic() + 60
         while time.monotonic() < end:
