@@ -91,7 +91,7 @@ ts::Ticks touched(ts_scene scene, const Asked& asked, std::atomic<bool>& stoppin
 
 } // namespace
 
-void OfflineTouch::begin(const Json& message, uint64_t client, ts_scene scene) {
+void OfflineTouch::begin(const Json& message, uint64_t client, const std::shared_ptr<ts::Scene>& scene) {
     if (making_.valid())
         throw Refusal("another path is being touched");
     if (scene == nullptr)
@@ -105,7 +105,7 @@ void OfflineTouch::begin(const Json& message, uint64_t client, ts_scene scene) {
         (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
         Made made{client, static_cast<uint32_t>(id), ts::Ticks(), {}};
         try {
-            made.ticks = touched(scene, asked, stopping_);
+            made.ticks = touched(scene->get(), asked, stopping_);
         } catch (const std::exception& error) {
             made.error = error.what();
         }

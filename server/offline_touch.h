@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,9 +29,9 @@ class OfflineTouch {
         ts::Ticks ticks;
         std::string error; ///< empty: none
     };
-    /// The message has `stroke` or `positions`, optional `rate` and `settings`. Where the
-    /// scene is closed before its stroke is laid, `Made::error` says so. Throws Refusal.
-    void begin(const Json& message, uint64_t client, ts_scene scene);
+    /// The message has `stroke` or `positions`, optional `rate` and `settings`. The scene stays open until
+    /// the path is made, whatever is loaded meanwhile. Throws Refusal.
+    void begin(const Json& message, uint64_t client, const std::shared_ptr<ts::Scene>& scene);
     /// Of a client that has gone; nothing where it is another one's.
     void forget(uint64_t client);
     /// What has been made, once.

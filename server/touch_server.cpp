@@ -128,7 +128,7 @@ Json TouchServer::answer(Client& client, const std::string& verb, const Json& me
     if (verb == "objects")
         return objectsTable(scene_.get());
     if (verb == "touch") {
-        offline_.begin(message, client.number, scene_ != nullptr ? scene_->get() : nullptr);
+        offline_.begin(message, client.number, scene_);
         return Json::object();
     }
     if (verb == "drive") {

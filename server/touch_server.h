@@ -89,7 +89,7 @@ class TouchServer {
     PumpPlan plan_;
     ReadTick read_; ///< the newest
     SceneLoading loading_;
-    std::unique_ptr<ts::Scene> scene_; ///< that is touched
+    std::shared_ptr<ts::Scene> scene_; ///< that is touched; a path that is made of it keeps it
     std::set<uint64_t> moved_;         ///< objects of it that clients have moved
     Json changedSettings_;             ///< by name, since the start
     OfflineTouch offline_;
