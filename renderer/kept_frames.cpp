@@ -16,6 +16,9 @@ namespace {
 // In triangles: what else takes about as long on a CPU that draws.
 constexpr double kDrawWork = 100.0; ///< of a draw call
 constexpr double kPixelWork = 0.1;  ///< of a pixel of the background
+/// Of each pixel of a band where a haptic program is drawn: a step begins with one such band, and more follow
+/// as their time is known.
+constexpr double kProgramPixelWork = 1.0;
 
 } // namespace
 
@@ -57,8 +60,12 @@ void SceneRenderer::Impl::advanceKept() {
     if (!kept_.idle())
         return;
     const View& view = kept_.key().view;
-    if (!kept_.begun())
+    if (!kept_.begun()) {
         collectDraws(view, eyeOf(view), kept_.extent(), Part::Resting, keptDraws_);
+        if (std::ranges::any_of(keptDraws_,
+                                [&](const DrawItem& item) { return showsProgram(item, view.mode); }))
+            kept_.expectPrograms();
+    }
     drawStep(kept_, keptDraws_);
 }
 
@@ -69,6 +76,12 @@ void SceneRenderer::Impl::drawStep(KeptPicture& kept, const std::vector<DrawItem
     const double work = drawOn(kept, draws);
     kept.endStep(work, kept.place.band >= kept.bands());
     submit(kept.slot);
+}
+
+bool SceneRenderer::Impl::showsProgram(const DrawItem& item, ViewMode mode) const {
+    const int mesh = scene_->scene().instances[static_cast<size_t>(item.instance)].mesh;
+    const int material = scene_->scene().meshes[static_cast<size_t>(mesh)].material;
+    return mode == ViewMode::Shaded && scene_->programs().of(material) != nullptr;
 }
 
 double SceneRenderer::Impl::drawOn(KeptPicture& kept, const std::vector<DrawItem>& draws) {
@@ -101,6 +114,8 @@ double SceneRenderer::Impl::drawOn(KeptPicture& kept, const std::vector<DrawItem
             item.indexCount = std::min(left, most);
             drawItem(commands, item, view.mode, kept.keepsLight());
             work += kDrawWork + item.indexCount / 3.0;
+            if (showsProgram(item, view.mode))
+                work += kProgramPixelWork * static_cast<double>(kept.extent().width) * (bottom - top);
             if (item.indexCount < left) {
                 place.index += item.indexCount;
                 return work;

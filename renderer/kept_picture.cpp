@@ -34,8 +34,13 @@ KeptPicture::KeptPicture(const Gpu::Impl& gpu, const Pipelines& pipelines) : gpu
 
 void KeptPicture::restart(const PictureKey& key) {
     key_ = key;
-    begun_ = complete_ = false;
+    begun_ = complete_ = programs_ = false;
     place = {};
+}
+
+void KeptPicture::expectPrograms() {
+    programs_ = true;
+    step_ = StepSize(kStepSeconds); // what other pictures took says nothing of this one
 }
 
 bool KeptPicture::idle() {

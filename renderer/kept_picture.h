@@ -19,6 +19,9 @@ class KeptPicture {
 
     /// Nothing of it is valid from now on; it is to show `key`.
     void restart(const PictureKey& key);
+    /// Before the first step: haptic programs are drawn, whose pixels may take a thousand times as long as
+    /// others.
+    void expectPrograms();
     [[nodiscard]] const PictureKey& key() const { return key_; }
     [[nodiscard]] bool begun() const { return begun_; }
     [[nodiscard]] bool complete() const { return complete_; }
@@ -51,9 +54,11 @@ class KeptPicture {
         size_t item = 0;    ///< of the resting objects' draws
         uint32_t index = 0; ///< of the item's indices
     } place;
-    static constexpr int kBandPixels = 400'000;
+    static constexpr int kBandPixels = 400'000, kProgramBandPixels = 40'000;
     [[nodiscard]] int bands() const { return (key_.size.y + bandRows() - 1) / bandRows(); }
-    [[nodiscard]] int bandRows() const { return std::max(1, kBandPixels / std::max(1, key_.size.x)); }
+    [[nodiscard]] int bandRows() const {
+        return std::max(1, (programs_ ? kProgramBandPixels : kBandPixels) / std::max(1, key_.size.x));
+    }
 
   private:
     void makeImages();
@@ -62,7 +67,7 @@ class KeptPicture {
     PictureKey key_;
     StepSize step_;
     double lastWork_ = 0.0; ///< of the last step; 0: its time is known
-    bool begun_ = false, complete_ = false;
+    bool begun_ = false, complete_ = false, programs_ = false;
     std::array<GpuImage, kLightImages> lights_;
     vk::raii::Sampler sampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};

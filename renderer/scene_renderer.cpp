@@ -7,6 +7,7 @@
 #include <chrono>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace touchstone {
 
@@ -69,12 +70,16 @@ void SceneRenderer::Impl::beginScene(std::shared_ptr<const PreparedScene> prepar
     coming_.reset();
     coming_ = std::make_unique<GpuScene>(gpu, pipelines_, std::move(prepared));
     const Scene& scene = coming_->scene();
-    std::set<uint32_t> known;
+    std::set<std::pair<uint32_t, const SurfaceProgram*>> known;
     cold_.clear();
-    for (size_t i = 0; i < scene.instances.size(); ++i)
-        if (known.insert(coming_->mesh(scene.instances[i].mesh).features).second)
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const int mesh = scene.instances[i].mesh;
+        const Material& material =
+            scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(mesh)].material)];
+        if (known.insert({coming_->mesh(mesh).features, material.haptic.program.compiled.get()}).second)
             for (const Cold::Kind kind : {Cold::Kind::Kept, Cold::Kind::Frame}) // from the back
                 cold_.push_back({static_cast<int>(i), kind});
+    }
 }
 
 bool SceneRenderer::Impl::continueScene(double seconds) {

@@ -137,6 +137,10 @@ class SceneRenderer {
 /// a CPU that draws has its shaders in the cache on disk before a window needs them. What fails is left out.
 /// Any thread; 0.1 s, and 0.3 s for each new kind of material.
 void compileAhead(const std::string& device, const std::shared_ptr<const PreparedScene>& prepared) noexcept;
+/// The same for programs that the materials of a scene are to have, one for each: the drivers of CPUs that
+/// draw compile some for seconds (6 s for indices that are computed).
+void compileAhead(const std::string& device, const Scene& scene,
+                  const std::vector<MaterialProgram>& programs) noexcept;
 
 /// One finished picture, anti-aliased by rendering at `supersampling` times the size (1..4, less where the
 /// device's maximum image size or 67 million drawn pixels require it) and averaging in linear light. Waits

@@ -104,6 +104,7 @@ struct SceneRenderer::Impl {
     void drawStep(KeptPicture& kept, const std::vector<DrawItem>& draws);
     /// Draws on from kept.place; returns the work done.
     [[nodiscard]] double drawOn(KeptPicture& kept, const std::vector<DrawItem>& draws);
+    [[nodiscard]] bool showsProgram(const DrawItem& item, ViewMode mode) const;
     void castShadow(const FrameSlot& slot, const View& view, const KeptPicture& kept);
     void collectDraws(const View& view, const glm::dvec3& eye, vk::Extent2D extent, Part part,
                       std::vector<DrawItem>& draws) const;

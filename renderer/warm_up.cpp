@@ -1,5 +1,6 @@
 // Frames that are not shown, so that a driver compiles what later ones need.
 
+#include "renderer/programmed_part.h"
 #include "renderer/scene_renderer_impl.h"
 
 #include <utility>
@@ -76,6 +77,15 @@ void SceneRenderer::Impl::warmUpOverlays() {
     drawWarm(overlay, nullptr);
     warmUpKept();
     drawWarm({}, &warmKept_);
+}
+
+void compileAhead(const std::string& device, const Scene& scene,
+                  const std::vector<MaterialProgram>& programs) noexcept {
+    try {
+        if (ScenePtr part = programmedPart(scene, programs))
+            compileAhead(device, prepareScene(std::move(part), {.coarsest = 0}));
+    } catch (...) { // then the window compiles
+    }
 }
 
 void compileAhead(const std::string& device, const std::shared_ptr<const PreparedScene>& prepared) noexcept {

@@ -72,8 +72,10 @@ WorkbenchWindow::WorkbenchWindow(const WindowOptions& options)
     firstPart_ = options.part;
     onScreen([this] { screen_.renderer().warmUp(); });
     // A second device would say to the validation layer what nobody reads.
-    if (const Gpu& gpu = screen_.gpu(); gpu.isSoftware() && !gpu.validationActive())
+    if (const Gpu& gpu = screen_.gpu(); gpu.isSoftware() && !gpu.validationActive()) {
         opening_.compileFor(gpu.name());
+        drawn_.compileFor(gpu.name());
+    }
     holdDevice();
     sendSettings();
     touch_.start();

@@ -2,15 +2,33 @@
 
 #include "workbench/model/opening.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <vector>
 
 namespace touchstone {
 
+namespace {
+
+std::vector<std::shared_ptr<const SurfaceProgram>>
+distinctPrograms(const std::vector<MaterialProgram>& programs) {
+    std::vector<std::shared_ptr<const SurfaceProgram>> distinct;
+    for (const MaterialProgram& program : programs)
+        if (program && std::ranges::find(distinct, program.compiled) == distinct.end())
+            distinct.push_back(program.compiled);
+    return distinct;
+}
+
+} // namespace
+
 void DrawnMaterials::shown(ScenePtr scene) {
     drawn_ = std::move(scene);
     redrawn_.reset();
+    compiled_.clear();
+    for (const Material& material : drawn_->materials) // compiled while it was opened
+        if (material.haptic.program)
+            compiled_.push_back(material.haptic.program.compiled);
 }
 
 void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool needed) {
@@ -46,8 +64,34 @@ void DrawnMaterials::showPrograms(SceneRenderer& renderer, std::span<const Mater
     std::vector<MaterialProgram> programs;
     for (const Material& material : materials)
         programs.push_back(material.haptic.program);
-    renderer.setPrograms(programs);
-    programs_ = now;
+    if (compiling_.valid()) {
+        if (compiling_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            return;
+        compiling_.get();
+        // Shown although newer ones may have come: those that are typed would not be seen before the typing
+        // ends.
+        if (ahead_.of.first == now.first) {
+            renderer.setPrograms(ahead_.all);
+            programs_ = ahead_.of;
+            compiled_ = distinctPrograms(ahead_.all);
+        }
+        return;
+    }
+    if (device_.empty() || compiled(programs)) {
+        renderer.setPrograms(programs);
+        programs_ = now;
+        return;
+    }
+    ahead_ = {now, std::move(programs)};
+    compiling_ = std::async(std::launch::async, [device = device_, scene = drawn_, all = ahead_.all] {
+        compileAhead(device, *scene, all);
+    });
+}
+
+bool DrawnMaterials::compiled(const std::vector<MaterialProgram>& programs) const {
+    return std::ranges::all_of(programs, [&](const MaterialProgram& program) {
+        return !program || std::ranges::find(compiled_, program.compiled) != compiled_.end();
+    });
 }
 
 } // namespace touchstone
