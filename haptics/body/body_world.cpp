@@ -79,11 +79,10 @@ void BodyWorld::finish() {
     const size_t count = states_.size();
     initial_ = states_;
     active_.assign(count, 0);
-    touches_.resize(count);
     island_.resize(count);
     awake_.reserve(kMaxAwake);
     settled_.reserve(count);
-    touched_.reserve(count);
+    pushes_.reserve(kMaxPushes);
     input_.bodies.resize(count);
     output_.found.resize(solver_->contactCapacity());
     output_.rooms.resize(count);
@@ -129,55 +128,6 @@ void BodyWorld::sleep(int body) noexcept {
     settled_.push_back(body);
 }
 
-/// Where what pushes the body in this tick is summed.
-BodyWorld::Touch& BodyWorld::touchOf(int body) noexcept {
-    Touch& touch = touches_[static_cast<size_t>(body)];
-    if (!touch.listed)
-        touched_.push_back(body);
-    touch.listed = true;
-    return touch;
-}
-
-void BodyWorld::push(int object, const HandPush& push) noexcept {
-    const int body = bodyOfObject_[static_cast<size_t>(object)];
-    if (body < 0 || push.force == glm::dvec3(0.0))
-        return;
-    const auto b = static_cast<size_t>(body);
-    if (masses_[b].inverse == 0.0)
-        return;
-    wake(body);
-    Touch& touch = touchOf(body);
-    touch.force += push.force;
-    touch.torque += glm::cross(push.point - states_[b].pose.position, push.force);
-    touch.point = push.point;
-    touch.stiffness += push.stiffness;
-}
-
-void BodyWorld::turn(int object, const glm::dvec3& torque) noexcept {
-    const int body = bodyOf(object);
-    if (body < 0 || torque == glm::dvec3(0.0) || masses_[static_cast<size_t>(body)].inverse == 0.0)
-        return;
-    wake(body);
-    touchOf(body).torque += torque;
-}
-
-/// The part of the hands' force that pushes a body: the spring between hand and body at the end of the step,
-/// implicit along the force. A body that is so light that the spring's rate is beyond the step's is never
-/// pushed by all of it but by Euler.
-double BodyWorld::partOf(const Touch& touch, int body, BodyIntegrator integrator, double dt) const noexcept {
-    const double size = glm::length(touch.force);
-    if (!(size > 0.0))
-        return 1.0;
-    const auto b = static_cast<size_t>(body);
-    const BodyMass& mass = masses_[b];
-    const BodyState& state = states_[b];
-    const glm::dvec3 along = touch.force / size, lever = touch.point - state.pose.position;
-    const glm::dvec3 arm = glm::cross(lever, along);
-    const double rate =
-        dt * dt * touch.stiffness * (mass.inverse + glm::dot(arm, turned(mass, state.pose.rotation, arm)));
-    return integrator == BodyIntegrator::Implicit || rate > 1.0 ? 1.0 / (1.0 + rate) : 1.0;
-}
-
 void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) noexcept {
     met_ = 0.0;
     if (awake_.empty())
@@ -206,20 +156,7 @@ void BodyWorld::integrate(BodyIntegrator integrator, double gravity, double dt) 
             state.spin *= left;
         }
     }
-    for (const int body : touched_) {
-        const auto b = static_cast<size_t>(body);
-        Touch& touch = touches_[b];
-        const BodyMass& mass = masses_[b];
-        BodyState& state = states_[b];
-        if (state.awake) {
-            const double part = euler ? 1.0 : partOf(touch, body, integrator, dt);
-            state.velocity += part * dt * mass.inverse * touch.force;
-            state.spin += part * dt * turned(mass, state.pose.rotation, touch.torque);
-            state.quiet = 0.0;
-        }
-        touch = Touch{};
-    }
-    touched_.clear();
+    applyPushes(integrator, dt);
     const SolverState s{states_, masses_, active_};
     solver_->applySprings(s, integrator, dt);
     solver_->solve(s, integrator, dt);

@@ -56,8 +56,9 @@ class BodyWorld {
     [[nodiscard]] static std::shared_ptr<BodyWorld> make(const Scene& scene, const HapticScene& haptic,
                                                          std::vector<Warning>* warnings = nullptr);
 
+    /// In the next `integrate`, after the pushes before it (push_bodies.cpp).
     void push(int object, const HandPush& push) noexcept;
-    /// Torque (N m, workspace) on the same object.
+    /// Torque (N m, workspace) on an object.
     void turn(int object, const glm::dvec3& torque) noexcept;
     /// The body of a haptic object; -1: none.
     [[nodiscard]] int bodyOf(int object) const noexcept {
@@ -126,12 +127,12 @@ class BodyWorld {
     friend class BodyBuilder;
     BodyWorld() = default;
     void finish();
-    struct Touch;
+    struct Push;
     void adopt(const FinderOutput& output) noexcept;
     void sleep(int body) noexcept;
-    [[nodiscard]] Touch& touchOf(int body) noexcept;
-    [[nodiscard]] double partOf(const Touch& touch, int body, BodyIntegrator integrator,
-                                double dt) const noexcept;
+    [[nodiscard]] bool takes(int body) noexcept;
+    [[nodiscard]] double partOf(const Push& push, BodyIntegrator integrator, double dt) const noexcept;
+    void applyPushes(BodyIntegrator integrator, double dt) noexcept;
     [[nodiscard]] int islandOf(int body) noexcept;
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
     void fillInput(FinderInput& input) const noexcept;
@@ -139,24 +140,24 @@ class BodyWorld {
     void keepSound() noexcept;
     void publish() noexcept;
 
-    struct Touch {
-        glm::dvec3 force{0.0}, torque{0.0}; ///< N, N m about the centre of mass
-        glm::dvec3 point{0.0};              ///< workspace, of the last force
-        double stiffness = 0.0;             ///< N/m, the sum
-        bool listed = false;                ///< in touched_
+    /// Of a tick: of each contact of each hand. What is beyond them is left out.
+    static constexpr size_t kMaxPushes = 256;
+    struct Push {
+        int body = -1;
+        HandPush hand;
+        glm::dvec3 torque{0.0}; ///< N m, workspace, besides that of the force
     };
 
     std::vector<std::string> names_;
     std::vector<BodyMass> masses_;
     std::vector<BodyState> states_, initial_;
-    std::vector<uint8_t> active_; ///< by body: awake and not held
-    std::vector<Touch> touches_;
+    std::vector<uint8_t> active_;       ///< by body: awake and not held
+    std::vector<Push> pushes_;          ///< of this tick, in the order of the hands
     std::vector<BodyObject> objects_;   ///< by body
     std::vector<uint32_t> firstObject_; ///< of each body in `objects_`, and the end
     std::vector<int> bodyOfObject_;     ///< of each haptic object; -1
     std::vector<int> awake_;            ///< bodies, capacity kMaxAwake
     std::vector<int> settled_;          ///< fell asleep; written until they rest in two ticks
-    std::vector<int> touched_;          ///< bodies with a force
     std::vector<int> followers_;        ///< kinematic bodies that an animation moves
     std::vector<int> island_;           ///< scratch
     double scale_ = 1.0;                ///< workspace metres of one of the scene
