@@ -22,6 +22,22 @@ bool readNoImage(tinygltf::Image*, int, std::string*, std::string*, int, int, co
     return true;
 }
 
+/// No file is there and none is written. tinygltf 2.9 has one function more than 2.5, and without it takes
+/// none.
+template <class Callbacks>
+Callbacks noFiles(Callbacks callbacks) {
+    callbacks.FileExists = [](const std::string&, void*) { return false; };
+    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+        return false;
+    };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                  void*) { return false; };
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](size_t*, std::string*, const std::string&, void*) { return false; };
+    return callbacks;
+}
+
 tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
     json core = json::object();
     for (const char* name : {"asset", "bufferViews", "accessors", "samplers", "textures", "materials",
@@ -48,12 +64,7 @@ tinygltf::Model typedModel(const ImportContext& context, const json& gltf) {
 
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(readNoImage, nullptr);
-    const tinygltf::FsCallbacks noFiles = {
-        [](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
-        [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-        [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-        nullptr};
-    reader.SetFsCallbacks(noFiles);
+    reader.SetFsCallbacks(noFiles(tinygltf::FsCallbacks{}));
 
     tinygltf::Model model;
     std::string error, warning;
