@@ -1,4 +1,4 @@
-#include "engine/import/geometry/gltf_soft_bodies.h"
+#include "engine/import/physics/gltf_soft_bodies.h"
 
 #include "engine/import/file/json_fields.h"
 #include "engine/scene/mesh_deformation.h"
