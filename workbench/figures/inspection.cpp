@@ -139,8 +139,8 @@ Json programJson(const program::FeltProgram& program, const MaterialProgram& mat
     return json;
 }
 
-Json materialsJson(const Model& model) {
-    const std::vector<EffectCost> costs = effectCosts(*model.haptic);
+Json materialsJson(const Model& model, int64_t longestNs) {
+    const std::vector<EffectCost> costs = effectCosts(*model.haptic, longestNs);
     constexpr std::array kShading{"auto", "off", "twoPass", "projected", "direction", "bezier"};
     Json materials = Json::array();
     for (size_t m = 0; m < model.scene->materials.size(); ++m) {
@@ -340,7 +340,7 @@ Json volumeJson(const Model& model) {
 
 } // namespace
 
-Json inspectionOf(const Model& model) {
+Json inspectionOf(const Model& model, int64_t longestNs) {
     const Scene& scene = *model.scene;
     Json animations = Json::array();
     const Animation* const played = playedAnimation(scene);
@@ -372,7 +372,7 @@ Json inspectionOf(const Model& model) {
               {"animations", animations},
               {"cameras", camerasJson(scene)},
               {"images", imagesJson(scene)},
-              {"materials", materialsJson(model)},
+              {"materials", materialsJson(model, longestNs)},
               {"objects", objectsJson(model)},
               {"perception", perceptionJson(model)},
               {"tick_p50_ns", tickCostJson(model)},
