@@ -158,6 +158,13 @@ void LiveSculptor::gather() {
 void LiveSculptor::work() {
     enterFloatMode(); // as a replay: the same bits
     for (;;) {
+        // The servo may adopt a scene while the next is offered, which then waits until the scene before is
+        // collected: the last edit would be felt with the edit after it.
+        const bool offered = servo_.editedPending();
+        if (offered) {
+            const std::scoped_lock applying(applying_);
+            servo_.collectEdited();
+        }
         {
             std::unique_lock lock(mutex_);
             if (stopping_)
@@ -166,7 +173,7 @@ void LiveSculptor::work() {
             busy_ = !waiting_.empty();
             if (!busy_) {
                 idle_.notify_all();
-                if (active_)
+                if (active_ || offered)
                     wake_.wait_for(lock, kPoll);
                 else
                     wake_.wait(lock, [this] { return stopping_ || active_ || !waiting_.empty(); });

@@ -153,6 +153,8 @@ class ServoLoop {
     void offerEdited(ReshapedScene scene);
     /// Frees the scene that the servo has released.
     void collectEdited() { edited_.collect(); }
+    /// Any thread: a sculpted scene waits to be adopted.
+    [[nodiscard]] bool editedPending() const noexcept { return edited_.pending(); }
     [[nodiscard]] uint64_t droppedEdits() const {
         return edits_.dropped();
     } ///< lost to a full ring; any thread
