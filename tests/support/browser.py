@@ -1,5 +1,6 @@
 """A headless Chromium for tests, led by its DevTools."""
 
+import base64
 import json
 import socket
 import subprocess
@@ -27,14 +28,21 @@ class Browser(Client):
             self._more()
         self._buffer = self._buffer.split(b"\r\n\r\n", 1)[1]
 
-    def run(self, script):
-        """The value of an expression in the page."""
+    def _command(self, method, **parameters):
         self._asked += 1
-        self.send(json.dumps({"id": self._asked, "method": "Runtime.evaluate", "params": {"expression": script, "returnByValue": True}}).encode())
+        self.send(json.dumps({"id": self._asked, "method": method, "params": parameters}).encode())
         while True:
             message = self.receive()
             if message.get("id") == self._asked:
-                return message["result"]["result"].get("value")
+                return message["result"]
+
+    def run(self, script):
+        """The value of an expression in the page."""
+        return self._command("Runtime.evaluate", expression=script, returnByValue=True)["result"].get("value")
+
+    def picture(self):
+        """The bytes of a PNG of what the page shows."""
+        return base64.b64decode(self._command("Page.captureScreenshot", format="png")["data"])
 
 
 def until(what, seconds=60):
@@ -51,12 +59,12 @@ def until(what, seconds=60):
     raise AssertionError("waited in vain")
 
 
-def open_page(program, url, profile):
+def open_page(program, url, profile, *options):
     """Chromium with that page: its process, and a Browser. The caller ends both."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    process = subprocess.Popen([program, *OPTIONS, f"--user-data-dir={profile}", f"--remote-debugging-port={port}", url],
+    process = subprocess.Popen([program, *OPTIONS, *options, f"--user-data-dir={profile}", f"--remote-debugging-port={port}", url],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def target():

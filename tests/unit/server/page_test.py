@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import subprocess
 import sys
 import unittest
 
@@ -10,7 +9,7 @@ from serving import BROWSER, Server
 from touchstone.client import token_of
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
-from browser import OPTIONS, open_page, until
+from browser import open_page, until
 
 
 class Page(Server):
@@ -52,15 +51,19 @@ class Page(Server):
     @unittest.skipUnless(BROWSER, "there is no Chromium")
     def test_shows_the_model_and_the_force(self):
         self.touching(self.client(self.path))
-        picture = self.folder / "page.png"
-        browser = subprocess.run([BROWSER, *OPTIONS, "--window-size=1200,800", f"--user-data-dir={self.folder}/profile",
-                        "--timeout=15000", f"--screenshot={picture}", "--enable-logging=stderr",
-                        f"http://127.0.0.1:{self.port}/#{token_of(self.port)}"], check=True, capture_output=True, text=True, timeout=120)
-        self.assertNotIn("Uncaught", browser.stderr)
-        self.assertGreater(picture.stat().st_size, 20_000)
+        browser, page = open_page(BROWSER, f"http://127.0.0.1:{self.port}/#{token_of(self.port)}", self.folder / "shown", "--window-size=1200,800")
+        self.addCleanup(browser.wait)
+        self.addCleanup(browser.terminate)
+        self.addCleanup(page.close)
+        until(lambda: page.run("document.readyState === 'complete'"))
+        page.run("window.wrong = []; window.addEventListener('error', (e) => window.wrong.push(e.message))")
+        until(lambda: page.run("model && model.count"))
+        # The model fills much of the page: a picture of it takes more bytes than one of the panels alone.
+        picture = until(lambda: next((p for p in [page.picture()] if len(p) > 20_000), None))
+        self.assertEqual(page.run("window.wrong.join()"), "")
         keep = os.environ.get("TOUCHSTONE_KEEP_PICTURE")
         if keep:
-            pathlib.Path(keep).write_bytes(picture.read_bytes())
+            pathlib.Path(keep).write_bytes(picture)
 
 
 if __name__ == "__main__":
