@@ -68,10 +68,10 @@ void ServoRecorder::take(const TickRecord& record) {
     const std::vector<HandToRecord> others = std::exchange(others_, {});
     const uint64_t lost = record.step - nextStep_;
     nextStep_ = record.step + 1;
+    forgetBefore(record);
     if (!writer_ && !flight_)
         return;
     const auto scene = scenes_.find(record.root);
-    sculpted_.erase(sculpted_.begin(), sculpted_.lower_bound(record.scene));
     const auto sculptedScene = sculpted_.find(record.scene);
     SculptToRecord sculpt;
     const bool isSculpted = sculptedScene != sculpted_.end();
@@ -95,6 +95,14 @@ void ServoRecorder::take(const TickRecord& record) {
         guarded([&] { writer_->add(tick); }, false);
     if (flight_)
         guarded([&] { flight_->add(tick); }, true);
+}
+
+/// No later record names the scenes before. A program that edits a material for hours offers one with each
+/// edit.
+void ServoRecorder::forgetBefore(const TickRecord& record) {
+    scenes_.erase(scenes_.begin(), scenes_.lower_bound(record.root));
+    journals_.erase(journals_.begin(), journals_.lower_bound(record.root));
+    sculpted_.erase(sculpted_.begin(), sculpted_.lower_bound(record.scene));
 }
 
 void ServoRecorder::flush() {

@@ -48,6 +48,8 @@ class ServoRecorder {
     /// The persistent textures before the record that was taken last; null: the scene has none, or they have
     /// been lost since no record was taken for long.
     [[nodiscard]] const PersistentTextures* textures() const { return textures_.state(); }
+    /// Scenes that are known: those that records to come may name.
+    [[nodiscard]] size_t scenes() const { return scenes_.size() + journals_.size() + sculpted_.size(); }
     /// After each batch: passes all data to the system.
     void flush();
     /// After the last record.
@@ -59,9 +61,10 @@ class ServoRecorder {
   private:
     template <class Action>
     void guarded(const Action& action, bool flight);
+    void forgetBefore(const TickRecord& record);
 
     ServoLoop& servo_;
-    std::map<uint32_t, SceneIdentity> scenes_;
+    std::map<uint32_t, SceneIdentity> scenes_;              // by root
     std::map<uint32_t, EditedScene> sculpted_;              // that a record may still name
     std::map<uint32_t, std::vector<SculptEntry>> journals_; // by root
     std::optional<RecordingWriter> writer_;

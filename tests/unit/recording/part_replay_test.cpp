@@ -164,6 +164,22 @@ TEST(PartReplay, WhatStoodBehindTheHiddenPushesOnlyAfterTheHandHasLeft) {
     hand.expectReplay();
 }
 
+/// Each edit is a scene: the recorder kept them all, half a kilobyte each, as long as a server ran.
+TEST(ServoRecorder, ForgetsScenesThatNoRecordNamesAnyMore) {
+    RecordedServo rig([](double) { return at({0.0, 0.02, 0.0}); });
+    const TouchedScene floor = floorScene(0.0f);
+    for (int i = 0; i < 20; ++i) {
+        rig.offer(floor, SceneSwap::SameGeometry);
+        rig.ticks(100);
+        EXPECT_LE(rig.recorder.scenes(), 2u) << i;
+    }
+    const auto file = std::filesystem::path(testing::TempDir()) / "forgets_scenes.tsrec";
+    rig.recorder.start(file, "test");
+    rig.ticks(200);
+    rig.finish();
+    expectEqualReplay(replayOf(file, rig.scenes));
+}
+
 /// Failed: an object that was hidden before touch began was the reference object, and every other material
 /// ended the touch.
 TEST(PartReplay, MaterialsAreEditedBesideAHiddenObject) {
