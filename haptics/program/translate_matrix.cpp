@@ -2,8 +2,8 @@
 
 #include "haptics/program/meaning.h"
 
-#include <glslang/SPIRV/GLSL.std.450.h>
 #include <glslang/SPIRV/spirv.hpp>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include <array>
 
