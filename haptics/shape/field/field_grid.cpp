@@ -44,6 +44,7 @@ FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, c
     bricks_ = (layout.cells + (kBrick - 1)) / kBrick;
     table_.reserve(static_cast<size_t>(bricks_.x) * static_cast<size_t>(bricks_.y) *
                    static_cast<size_t>(bricks_.z));
+    steepest_.reserve(table_.capacity());
     std::vector<float> nodes(kBrickNodes);
     for (int z = 0; z < bricks_.z; ++z)
         for (int y = 0; y < bricks_.y; ++y)
@@ -57,11 +58,16 @@ FieldGrid::FieldGrid(const FieldLayout& layout, double inside, double outside, c
         hash.add(layout.cells[axis]);
     }
     for (const Brick& brick : table_)
-        hash.add(brick.flat == brick.flat ? brick.flat : -0.0f);
-    for (size_t brick = 0; brick < kept_; ++brick)
-        for (const float value :
-             std::span(chunks_[brick / kChunk].get() + brick % kChunk * kBrickNodes, kBrickNodes))
-            hash.add(value);
+        hash.add(brick.nodes == nullptr ? brick.flat : -0.0f);
+    for (int z = 0; z < bricks_.z; ++z)
+        for (int y = 0; y < bricks_.y; ++y)
+            for (int x = 0; x < bricks_.x; ++x) {
+                if (brickOf({x, y, z}).nodes == nullptr)
+                    continue;
+                copyBrick({x, y, z}, std::span<float, kBrickNodes>(nodes));
+                for (const float value : nodes)
+                    hash.add(value);
+            }
     hash_ = hash.value();
 }
 
@@ -89,23 +95,23 @@ void FieldGrid::fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::v
     const BrickMeasure measure = measureBrick(first, glm::min(glm::ivec3(kBrick), layout_.cells - first),
                                               std::span<const float, kBrickNodes>(nodes));
     include(measure);
-    if (least == most)
-        table_.push_back({least, 0.0f, nullptr});
-    else
-        table_.push_back({kVaries, measure.steepest, keep(nodes)});
+    const bool flat = least == most;
+    table_.push_back(flat ? Brick{nullptr, least, 0} : kept(brick, nodes));
+    steepest_.push_back(flat ? 0.0f : measure.steepest);
 }
 
 FieldGrid::FieldGrid(std::shared_ptr<const FieldGrid> base, std::vector<BrickEdit> edits)
     : layout_(base->layout_), inside_(base->inside_), outside_(base->outside_), bricks_(base->bricks_),
-      table_(base->table_), base_(std::move(base)), edits_(std::move(edits)), low_(base_->low_),
-      high_(base_->high_), hash_(base_->hash_) {
+      table_(base->table_), steepest_(base->steepest_), base_(std::move(base)), edits_(std::move(edits)),
+      low_(base_->low_), high_(base_->high_), hash_(base_->hash_) {
     Hash64 hash;
     hash.add(base_->hash_);
     for (const BrickEdit& edit : edits_) {
         const EditedBrick& brick = *edit.brick;
-        table_[edit.number] = brick.flat == brick.flat
-                                  ? Brick{brick.flat, 0.0f, nullptr}
-                                  : Brick{kVaries, brick.measure.steepest, brick.nodes.data()};
+        const bool flat = brick.flat == brick.flat;
+        table_[edit.number] =
+            flat ? Brick{nullptr, brick.flat, 0} : Brick{brick.nodes.data(), kVaries, kNodes};
+        steepest_[edit.number] = flat ? 0.0f : brick.measure.steepest;
         include(brick.measure);
         hash.add(edit.number);
         hash.add(brick.hash);
@@ -115,12 +121,22 @@ FieldGrid::FieldGrid(std::shared_ptr<const FieldGrid> base, std::vector<BrickEdi
         hash_ = hash.value();
 }
 
-const float* FieldGrid::keep(std::span<const float> nodes) {
-    if (kept_ == chunks_.size() * kChunk)
-        chunks_.push_back(std::make_unique<float[]>(kChunk * kBrickNodes));
-    float* const place = chunks_.back().get() + kept_++ % kChunk * kBrickNodes;
-    std::ranges::copy(nodes, place);
-    return place;
+/// The next bricks keep the last nodes, where there are next ones, or the nodes lie beyond the grid.
+FieldGrid::Brick FieldGrid::kept(const glm::ivec3& brick, std::span<const float> nodes) {
+    const bool last = glm::any(glm::equal(kBrick * (brick + 1), layout_.cells));
+    const int side = last ? kNodes : kBrick;
+    const size_t count = static_cast<size_t>(side) * static_cast<size_t>(side) * static_cast<size_t>(side);
+    if (used_ + count > kChunk) {
+        chunks_.push_back(std::make_unique<float[]>(kChunk));
+        used_ = 0;
+    }
+    float* const place = chunks_.back().get() + used_;
+    used_ += count;
+    float* to = place;
+    for (int z = 0; z < side; ++z)
+        for (int y = 0; y < side; ++y)
+            to = std::copy_n(nodes.data() + brickNode({0, y, z}), side, to);
+    return {place, kVaries, static_cast<uint32_t>(side)};
 }
 
 void FieldGrid::checkBorder(const glm::ivec3& first, std::span<const float> nodes) const {
@@ -144,15 +160,15 @@ void FieldGrid::include(const BrickMeasure& measure) {
 
 void FieldGrid::setLipschitz() {
     float steepest = 0.0f;
-    for (const Brick& brick : table_)
-        steepest = std::max(steepest, brick.steepest);
+    for (const float of : steepest_)
+        steepest = std::max(steepest, of);
     constexpr double kRounded = 1.0 + 1e-6; // the sum is of floats
     lipschitz_ = kRounded * std::sqrt(static_cast<double>(steepest)) / layout_.voxel;
 }
 
 size_t FieldGrid::memoryBytes() const noexcept {
-    return sizeof *this + table_.capacity() * sizeof(Brick) +
-           chunks_.size() * kChunk * kBrickNodes * sizeof(float) +
+    return sizeof *this + table_.capacity() * sizeof(Brick) + steepest_.capacity() * sizeof(float) +
+           chunks_.size() * kChunk * sizeof(float) +
            edits_.size() * (sizeof(BrickEdit) + sizeof(EditedBrick)) +
            (base_ != nullptr ? base_->memoryBytes() : 0);
 }
@@ -168,12 +184,42 @@ const FieldGrid::Brick& FieldGrid::brickOf(const glm::ivec3& brick) const noexce
     return table_[brickNumber(brick)];
 }
 
-void FieldGrid::copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes> nodes) const noexcept {
+/// A node of a brick, counted from its first one; outside() beyond the grid.
+float FieldGrid::valueIn(glm::ivec3 brick, glm::ivec3 at) const noexcept {
     const Brick& own = brickOf(brick);
     if (own.nodes == nullptr)
+        return own.flat;
+    for (int axis = 0; axis < 3 && own.side == kBrick; ++axis)
+        if (at[axis] == kBrick) {
+            at[axis] = 0;
+            ++brick[axis];
+        }
+    if (glm::any(glm::greaterThanEqual(brick, bricks_)))
+        return static_cast<float>(outside_);
+    return brickOf(brick).value(glm::uvec3(at));
+}
+
+void FieldGrid::copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes> nodes) const noexcept {
+    const Brick& own = brickOf(brick);
+    if (own.nodes == nullptr) {
         std::ranges::fill(nodes, own.flat);
-    else
+        return;
+    }
+    if (own.side == kNodes) {
         std::copy_n(own.nodes, kBrickNodes, nodes.begin());
+        return;
+    }
+    float* to = nodes.data();
+    for (int z = 0; z < kNodes; ++z)
+        for (int y = 0; y < kNodes; ++y) {
+            int x = 0;
+            if (y < kBrick && z < kBrick) {
+                to = std::copy_n(own.nodes + kBrick * (y + kBrick * z), kBrick, to);
+                x = kBrick;
+            }
+            for (; x < kNodes; ++x)
+                *to++ = valueIn(brick, {x, y, z});
+        }
 }
 
 void FieldGrid::copyNodes(const glm::ivec3& first, const glm::ivec3& size,
@@ -184,11 +230,13 @@ void FieldGrid::copyNodes(const glm::ivec3& first, const glm::ivec3& size,
             for (int x = first.x; x < first.x + size.x;) {
                 const glm::ivec3 at(x, y, z), brick = glm::min(at / kBrick, bricks_ - 1),
                                               own = at - kBrick * brick;
-                const int count = std::min(kNodes - own.x, first.x + size.x - x);
-                if (const Brick& from = brickOf(brick); from.nodes == nullptr)
+                const Brick& from = brickOf(brick);
+                const int side = from.nodes == nullptr ? kNodes : static_cast<int>(from.side);
+                const int count = std::min(side - own.x, first.x + size.x - x);
+                if (from.nodes == nullptr)
                     std::fill_n(to, count, from.flat);
                 else
-                    std::copy_n(from.nodes + brickNode(own), count, to);
+                    std::copy_n(from.nodes + own.x + side * (own.y + side * own.z), count, to);
                 to += count;
                 x += count;
             }
@@ -203,17 +251,36 @@ glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
 }
 
 FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {
-    const Brick& brick = brickOf(at / kBrick);
-    if (brick.nodes == nullptr) {
+    constexpr auto kSide = static_cast<uint32_t>(kBrick);
+    const glm::uvec3 cell(at), own = cell / kSide, in = cell % kSide;
+    const glm::uvec3 pitch(1u, static_cast<uint32_t>(bricks_.x),
+                           static_cast<uint32_t>(bricks_.x) * static_cast<uint32_t>(bricks_.y));
+    const Brick* const brick = &table_[own.x * pitch.x + own.y * pitch.y + own.z * pitch.z];
+    if (brick->nodes == nullptr) {
         FieldCell flat;
-        flat.c[0] = static_cast<double>(brick.flat);
+        flat.c[0] = static_cast<double>(brick->flat);
         return flat;
     }
-    const float* const values = brick.nodes + brickNode(at % kBrick);
     std::array<double, 8> node{};
+    if (brick->side == kSide && (in.x == kSide - 1 || in.y == kSide - 1 || in.z == kSide - 1)) {
+        // Of each axis the place of the far nodes, and the way to the brick that has them.
+        glm::uvec3 far = in + 1u, step(0u);
+        for (int axis = 0; axis < 3; ++axis)
+            if (far[axis] == kSide) {
+                far[axis] = 0;
+                step[axis] = pitch[axis];
+            }
+        for (uint32_t k = 0; k < 8; ++k) {
+            const bool x = (k & 1) != 0, y = (k & 2) != 0, z = (k & 4) != 0;
+            const Brick& has = brick[(x ? step.x : 0) + (y ? step.y : 0) + (z ? step.z : 0)];
+            node[k] = static_cast<double>(has.value({x ? far.x : in.x, y ? far.y : in.y, z ? far.z : in.z}));
+        }
+        return FieldCell::between(node);
+    }
+    const size_t side = brick->side;
+    const float* const values = brick->nodes + in.x + side * (in.y + side * in.z);
     for (size_t k = 0; k < 8; ++k)
-        node[k] = static_cast<double>(
-            values[(k & 1) + (k >> 1 & 1) * size_t{kNodes} + (k >> 2) * size_t{kNodes} * kNodes]);
+        node[k] = static_cast<double>(values[(k & 1) + (k >> 1 & 1) * side + (k >> 2) * side * side]);
     return FieldCell::between(node);
 }
 

@@ -25,7 +25,8 @@ struct FieldLayout {
 
 /// A field f, negative inside of the object, trilinear between float nodes and continuous: C0, with kinks at
 /// the faces of cells. Immutable. Cells are kept in bricks of 8^3; a brick whose nodes are all equal takes
-/// four bytes. Outside of the grid f is the value at the nearest place of the grid and the distance to it.
+/// no nodes, and the last nodes of the others are kept once, as the first of the next bricks. Outside of the
+/// grid f is the value at the nearest place of the grid and the distance to it.
 ///
 /// The servo reads it without an allocation or a lock; a query costs the same in a small grid and in a large
 /// one.
@@ -38,7 +39,7 @@ class FieldGrid {
     static constexpr uint64_t kMostCells = uint64_t{1} << 32; ///< a cell's number has 32 bits
 
     /// `nodes` (x fastest, kNodes a side) of the brick whose first node is `first`. Nodes beyond the grid may
-    /// be anything.
+    /// be anything; those that two bricks share have the same value in both.
     using FillBrick = std::function<void(const glm::ivec3& first, std::span<float> nodes)>;
 
     /// Calls `fill` once for each brick. Values are clamped to -inside .. outside: beyond these distances
@@ -48,7 +49,7 @@ class FieldGrid {
     FieldGrid(const FieldLayout& layout, double inside, double outside, const FillBrick& fill);
 
     /// The grid `base`, which is not edited itself, with other bricks in some places: in increasing order of
-    /// their numbers. Shares all others with it. Takes time for a table of 16 bytes a brick, not for nodes.
+    /// their numbers. Shares all others with it. Takes time for tables of 20 bytes a brick, not for nodes.
     FieldGrid(std::shared_ptr<const FieldGrid> base, std::vector<BrickEdit> edits);
 
     [[nodiscard]] const FieldLayout& layout() const noexcept { return layout_; }
@@ -94,12 +95,19 @@ class FieldGrid {
 
   private:
     struct Brick {
-        float flat;         ///< NaN: the nodes differ
-        float steepest;     ///< BrickMeasure::steepest
         const float* nodes; ///< null: all are `flat`
+        float flat;
+        /// Nodes that are kept on each axis: kBrick, or kNodes where no brick follows that has the last ones,
+        /// and in edited bricks.
+        uint32_t side;
+        [[nodiscard]] float value(const glm::uvec3& at) const noexcept {
+            const uint32_t place = at.x + side * (at.y + side * at.z);
+            return nodes == nullptr ? flat : nodes[place];
+        }
     };
     void fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes);
-    [[nodiscard]] const float* keep(std::span<const float> nodes);
+    [[nodiscard]] Brick kept(const glm::ivec3& brick, std::span<const float> nodes);
+    [[nodiscard]] float valueIn(glm::ivec3 brick, glm::ivec3 at) const noexcept;
     void include(const BrickMeasure& measure);
     void setLipschitz();
     void checkBorder(const glm::ivec3& first, std::span<const float> nodes) const;
@@ -109,12 +117,13 @@ class FieldGrid {
     double inside_, outside_, lipschitz_ = 0.0;
     glm::ivec3 bricks_{0};
     std::vector<Brick> table_;
+    std::vector<float> steepest_;           ///< BrickMeasure::steepest; 0 in flat bricks
     std::shared_ptr<const FieldGrid> base_; ///< of an edited grid: the owner of all other nodes
     std::vector<BrickEdit> edits_;
-    /// The nodes of kChunk bricks each: growing copies nothing.
-    static constexpr size_t kChunk = 64;
+    /// Nodes, kChunk floats each: growing copies nothing.
+    static constexpr size_t kChunk = size_t{64} * kBrick * kBrick * kBrick;
     std::vector<std::unique_ptr<float[]>> chunks_;
-    size_t kept_ = 0; ///< bricks in them
+    size_t used_ = kChunk; ///< of the last one
     glm::dvec3 low_{INFINITY}, high_{-INFINITY};
     uint64_t hash_ = 0;
 };

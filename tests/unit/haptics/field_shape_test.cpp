@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "haptics/shape/field/field_error.h"
+#include "tests/support/field_nodes.h"
 #include "tests/unit/haptics/field_bench.h"
 
 #include <gtest/gtest.h>
@@ -335,6 +336,99 @@ TEST(FieldGrid, KeepsWhatItIsGivenAndRefusesWhatIsNone) {
     EXPECT_THROW(build(cubeOf(20), [](const glm::dvec3&) { return NAN; }), Error);
     EXPECT_THROW(build(cubeOf(20), [](const glm::dvec3& p) { return p.x; }), Error) << "reaches the border";
     EXPECT_THROW(fieldOf([](const glm::dvec3&) { return 0.05; }, 20), Error) << "nowhere negative";
+}
+
+/// Noise between nodes, with flat bricks in it; positive at the border.
+float noiseAt(const glm::ivec3& node, const glm::ivec3& cells) {
+    if (node.x <= 8 && node.y <= 8)
+        return 0.1f;
+    if (glm::any(glm::equal(node, glm::ivec3(0))) || glm::any(glm::equal(node, cells)))
+        return 0.03f;
+    const auto seed = static_cast<uint32_t>(node.x + 57 * node.y + 3301 * node.z) * 2654435761u;
+    return -0.2f + 0.3f * static_cast<float>(seed >> 8) / static_cast<float>(1 << 24);
+}
+
+/// Every way to a node of a grid against `expected`.
+void expectNodes(const FieldGrid& grid, const std::function<float(const glm::ivec3&)>& expected) {
+    const glm::ivec3& cells = grid.layout().cells;
+    const auto within = [&](const glm::ivec3& node) { return glm::all(glm::lessThanEqual(node, cells)); };
+    std::array<float, FieldGrid::kBrickNodes> nodes{};
+    for (int z = 0; z < grid.bricks().z; ++z)
+        for (int y = 0; y < grid.bricks().y; ++y)
+            for (int x = 0; x < grid.bricks().x; ++x) {
+                grid.copyBrick({x, y, z}, nodes);
+                eachBrickNode([&](const glm::ivec3& at) {
+                    const glm::ivec3 node = FieldGrid::kBrick * glm::ivec3(x, y, z) + at;
+                    ASSERT_EQ(nodes[brickNode(at)], within(node) ? expected(node) : 0.1f)
+                        << node.x << ' ' << node.y << ' ' << node.z;
+                });
+            }
+    const std::vector<float> all = allNodes(grid);
+    size_t i = 0;
+    for (int z = 0; z <= cells.z; ++z)
+        for (int y = 0; y <= cells.y; ++y)
+            for (int x = 0; x <= cells.x; ++x) {
+                const glm::ivec3 node(x, y, z);
+                ASSERT_EQ(all[i++], expected(node)) << x << ' ' << y << ' ' << z;
+                ASSERT_NEAR(grid.node(node), static_cast<double>(expected(node)), 1e-7);
+                if (grid.contains(node))
+                    for (int k = 0; k < 8; ++k) {
+                        const glm::ivec3 corner(k & 1, k >> 1 & 1, k >> 2);
+                        ASSERT_NEAR(grid.cell(node).value(glm::dvec3(corner)),
+                                    static_cast<double>(expected(node + corner)), 1e-7);
+                    }
+            }
+}
+
+TEST(FieldGrid, TheNodesThatBricksShareAreReadFromAnyOfThem) {
+    for (const glm::ivec3& cells : {glm::ivec3(20, 24, 16), glm::ivec3(17, 16, 23), glm::ivec3(8, 9, 15)}) {
+        const auto grid = std::make_shared<const FieldGrid>(
+            FieldLayout{.origin = glm::dvec3(0.0), .voxel = 0.1, .cells = cells}, 0.2, 0.1,
+            [&](const glm::ivec3& first, std::span<float> nodes) {
+                eachBrickNode(
+                    [&](const glm::ivec3& at) { nodes[brickNode(at)] = noiseAt(first + at, cells); });
+            });
+        const auto noise = [&](const glm::ivec3& node) { return noiseAt(node, cells); };
+        expectNodes(*grid, noise);
+        // Edited: the nodes of one brick inside of it, and all of a brick that becomes flat but for its
+        // border.
+        const glm::ivec3 edited = glm::min(glm::ivec3(1, 1, 0), grid->bricks() - 1);
+        const auto changed = [&](const glm::ivec3& node) {
+            const glm::ivec3 at = node - FieldGrid::kBrick * edited;
+            const bool inside = glm::all(glm::greaterThan(at, glm::ivec3(0))) &&
+                                glm::all(glm::lessThan(at, glm::ivec3(FieldGrid::kBrick))) &&
+                                glm::all(glm::lessThan(node, cells));
+            return inside ? 0.05f : noise(node);
+        };
+        std::array<float, FieldGrid::kBrickNodes> nodes{};
+        const glm::ivec3 first = FieldGrid::kBrick * edited;
+        eachBrickNode([&](const glm::ivec3& at) {
+            const bool within = glm::all(glm::lessThanEqual(first + at, cells));
+            nodes[brickNode(at)] = within ? changed(first + at) : 0.1f;
+        });
+        const FieldGrid again(grid,
+                              {{grid->brickNumber(edited),
+                                editedBrick(first, glm::min(glm::ivec3(FieldGrid::kBrick), cells - first),
+                                            std::span<const float, FieldGrid::kBrickNodes>(nodes))}});
+        expectNodes(again, changed);
+        expectNodes(*grid, noise);
+    }
+}
+
+/// The last nodes of bricks are kept once; the hash is over all nodes of each brick, as recordings have it.
+TEST(FieldGrid, KeepsABrickInItsNumberOfCells) {
+    const FieldGrid grid = gridOfDistance(cubeOf(100), 0.2, 0.1, torus);
+    size_t bricks = 0;
+    for (int z = 0; z < grid.bricks().z; ++z)
+        for (int y = 0; y < grid.bricks().y; ++y)
+            for (int x = 0; x < grid.bricks().x; ++x) {
+                const float flat = grid.flatBrick(FieldGrid::kBrick * glm::ivec3(x, y, z));
+                bricks += flat == flat ? 0 : 1;
+            }
+    EXPECT_GT(bricks, 500u);
+    const size_t least = bricks * 512 * sizeof(float);
+    EXPECT_GE(grid.memoryBytes(), least);
+    EXPECT_LE(grid.memoryBytes(), least + least / 8);
 }
 
 } // namespace
