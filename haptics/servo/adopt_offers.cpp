@@ -25,24 +25,8 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     touch.part = part;
     if (offer != nullptr)
         offer->world.forget();
-    if (goesOn) {
-        // As in a replay that resumes here: the objects have their previous poses.
-        if (std::isfinite(touch.previousTime))
-            offer->world.advance(touch.previousTime);
-        const ObjectMotions moved = offer->world.poses();
-        const ObjectMotions motions = moved.empty() ? ObjectMotions(offer->scene->restMotions) : moved;
-        for (DeviceState& device : touch.devices) {
-            if (otherPart)
-                takeUpPart(*offer->scene, offer->world.touched(*offer->scene),
-                           offer->before == touch.root ? offer->partBefore.get() : nullptr, motions,
-                           feltRadius(*touch.settings), device);
-            else
-                letGoOfEmptied(*offer->scene, motions, device);
-            if (!offer->reshaped.empty())
-                takeUpReshaped(*offer->scene, motions, offer->reshaped, device);
-        }
+    if (goesOn && touch.takeOver(*offer, otherPart))
         return;
-    }
     // A new world: forget the proxy, fade the force in, but keep the command that the device still holds.
     for (DeviceState& device : touch.devices) {
         letGo(device);
@@ -55,6 +39,33 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     for (Touch::Felt& felt : touch.felt)
         felt.feedback = TouchFeedback{};
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Touch goes on in a scene of equal geometry. False where it cannot: the vertices of the preceding tick are
+/// not published (the servo stood still for longer than was published ahead, or the animation was wound on
+/// with the offer). The hands would be taken over on vertices of another time, and a replay, which has all
+/// of them, would differ from there on.
+bool ServoLoop::Touch::takeOver(const Offer& next, bool otherPart) noexcept {
+    // As in a replay that resumes here: the objects have their previous poses.
+    if (std::isfinite(previousTime))
+        next.world.advance(previousTime);
+    if (next.world.held()) {
+        next.world.forget();
+        return false;
+    }
+    const ObjectMotions moved = next.world.poses();
+    const ObjectMotions motions = moved.empty() ? ObjectMotions(next.scene->restMotions) : moved;
+    for (DeviceState& device : devices) {
+        if (otherPart)
+            takeUpPart(*next.scene, next.world.touched(*next.scene),
+                       next.before == root ? next.partBefore.get() : nullptr, motions, feltRadius(*settings),
+                       device);
+        else
+            letGoOfEmptied(*next.scene, motions, device);
+        if (!next.reshaped.empty())
+            takeUpReshaped(*next.scene, motions, next.reshaped, device);
+    }
+    return true;
 }
 
 /// Start of a tick: the newest scene and settings, and checkpoints where they are due.

@@ -53,6 +53,9 @@ struct ServoLoop::Touch {
                                .object = output.object};
     }
 
+    /// After an offer of equal geometry (adopt_offers.cpp).
+    [[nodiscard]] bool takeOver(const Offer& next, bool otherPart) noexcept;
+
     /// The command without contact: the force that the device still holds goes to zero within its limits.
     DeviceCommand restCommand(size_t hand, double dt) noexcept {
         uint32_t flags = 0;

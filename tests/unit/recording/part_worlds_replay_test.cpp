@@ -180,6 +180,46 @@ TEST(PartWorldsReplay, AHandHoldsOnToADeformingSheetWhileAPlaneMovesBesideIt) {
     hand.expectReplay();
 }
 
+/// A material is edited and the animation wound on in one offer: the vertices of the preceding tick are not
+/// among those that were published ahead. (So it is where a servo stands still for longer than is published.)
+/// Once the hand went on, taken over on the vertices of the animation's start, 1 mm lower.
+TEST(PartWorldsReplay, AHandBeginsAnewWhereTheVerticesOfTheLastTickAreNotThere) {
+    const TouchedScene whole = wavingSheets();
+    HeldHand hand(whole, 0.01, 0.01, -0.003);
+    HapticSettings settings;
+    settings.animationSpeed = 0.0;
+    settings.animationOffset = 0.5; // the sheet is at its highest
+    hand.rig.servo.setSettings(settings);
+    hand.rig.ticks(400);
+    ASSERT_GT(hand.force(), 0.5);
+    for (const double offset : {0.9, 0.25, 0.5}) {
+        const size_t first = hand.rig.records.size();
+        settings.animationOffset = offset;
+        TouchedScene edited = withChanged(whole, [](HapticMaterial& m) { m.stiffness.value = 500.0f; });
+        hand.rig.scenes.push_back(edited);
+        hand.rig.recorder.sceneOffered(
+            hand.rig.servo.offerScene(edited.haptic, edited.source, SceneSwap::SameGeometry, &settings),
+            edited.identity);
+        hand.rig.ticks(200);
+        EXPECT_EQ(hand.rig.records.back().scene, hand.rig.scenes.size());
+        size_t began = 0;
+        for (size_t i = first; i < hand.rig.records.size(); ++i)
+            began += hand.rig.records[i].output.contacts == 0 ? 1 : 0;
+        EXPECT_GT(began, 0u) << "touch begins anew: " << offset;
+        // It began where it was, under the sheet: round the sheet's edge and down on it again.
+        hand.x = 0.1;
+        hand.rig.ticks(200);
+        hand.height = 0.01;
+        hand.rig.ticks(200);
+        hand.x = 0.01;
+        hand.rig.ticks(600);
+        hand.height = -0.003;
+        hand.rig.ticks(600);
+        ASSERT_GT(hand.force(), 0.5) << "and goes on";
+    }
+    hand.expectReplay();
+}
+
 /// A square of 0.1 m under plaque in y = 0, and one beside it.
 TouchedScene plaqueSheets() {
     const nlohmann::json shader{{"source", "plaque.glsl"},
