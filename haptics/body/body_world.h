@@ -131,7 +131,7 @@ class BodyWorld {
     void adopt(const FinderOutput& output) noexcept;
     void sleep(int body) noexcept;
     [[nodiscard]] bool takes(int body) noexcept;
-    [[nodiscard]] double partOf(const Push& push, BodyIntegrator integrator, double dt) const noexcept;
+    double solvePush(Push& push, BodyIntegrator integrator, double dt) noexcept;
     void applyPushes(BodyIntegrator integrator, double dt) noexcept;
     [[nodiscard]] int islandOf(int body) noexcept;
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
@@ -146,6 +146,7 @@ class BodyWorld {
         int body = -1;
         HandPush hand;
         glm::dvec3 torque{0.0}; ///< N m, workspace, besides that of the force
+        double exerted = 0.0;   ///< N, along the force
     };
 
     std::vector<std::string> names_;
