@@ -70,7 +70,12 @@ TEST_F(HostileProgram, TheWindowDrawsWhileADriverCompilesForLong) {
     openSquare({{"source", "p.glsl"}});
     untilColour(1);
     const int loads = programOf(status())["loads"].get<int>();
-    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    // Six digits, which a float tells apart.
+    const auto now = std::chrono::duration_cast<std::chrono::microseconds>(
+                         std::chrono::system_clock::now().time_since_epoch())
+                             .count() %
+                         900'000 +
+                     100'000;
     writeTextFile(file_, "void touch(const in Touch before, inout Surface after) {\n"
                          "    float a[4] = float[4](0.1, 0.2, 0.3, 0." +
                              std::to_string(now) +
