@@ -1,6 +1,7 @@
 """A headless Chromium for tests, led by its DevTools."""
 
 import base64
+import http.client
 import json
 import socket
 import subprocess
@@ -18,7 +19,9 @@ class Browser(Client):
 
     def __init__(self, port, path):
         self._path = path
+        self.wrong = []  # what the page threw, also before this was opened
         super().__init__(port, timeout=30.0)
+        self._command("Runtime.enable")
 
     def _open(self, host, token):
         self._socket.sendall((f"GET {self._path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
@@ -33,7 +36,11 @@ class Browser(Client):
         self.send(json.dumps({"id": self._asked, "method": method, "params": parameters}).encode())
         while True:
             message = self.receive()
+            if message.get("method") == "Runtime.exceptionThrown":
+                self.wrong.append(message["params"]["exceptionDetails"])
             if message.get("id") == self._asked:
+                if "error" in message:  # as of a page that is being replaced, and so has no context yet
+                    raise ValueError(f"{method}: {message['error']}")
                 return message["result"]
 
     def run(self, script):
@@ -45,18 +52,21 @@ class Browser(Client):
         return base64.b64decode(self._command("Page.captureScreenshot", format="png")["data"])
 
 
-def until(what, seconds=60):
-    """The first value that is not false."""
+def until(what, seconds=120):
+    """The first value that is not false. A value that cannot be had yet is asked for again."""
     end = time.monotonic() + seconds
+    last = None
     while time.monotonic() < end:
         try:
             value = what()
-        except (OSError, ValueError):
-            value = None
+        except (OSError, ValueError, TypeError, http.client.HTTPException) as error:
+            value, last = None, error
+        else:
+            last = value
         if value:
             return value
         time.sleep(0.1)
-    raise AssertionError("waited in vain")
+    raise AssertionError(f"waited in vain; at last {last!r}")
 
 
 def open_page(program, url, profile, *options):

@@ -69,42 +69,50 @@ glm::vec2 middleAt(const glm::vec2& corner, float scale) {
     return corner + scale * glm::vec2(-kMargin - 0.5f * kSide, kMargin + 0.5f * kSide);
 }
 
+/// Of the ends under the pointer the nearest to the eye, which lies above the others; `otherwise` at a corner.
+const End& nearestUnderMouse(const std::array<End, 6>& ends, const End& otherwise, const glm::vec2& middle,
+                             float scale) {
+    const glm::vec2 mouse(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+    const auto found = std::find_if(ends.rbegin(), ends.rend(), [&](const End& end) {
+        return glm::distance(mouse, middle + scale * end.place) <= kEnd * scale;
+    });
+    return found == ends.rend() ? otherwise : *found;
+}
+
 } // namespace
 
 std::optional<CameraMove> drawAxisGizmo(const OrbitCamera& camera, const glm::vec2& corner, float scale,
                                         const std::function<void(const char*)>& mark) {
-    const glm::vec2 middle = middleAt(corner, scale), low = middle - 0.5f * scale * glm::vec2(kSide);
-    ImGui::SetNextWindowPos(at(low));
-    ImGui::SetNextWindowSize(ImVec2(scale * kSide, scale * kSide));
+    const glm::vec2 middle = middleAt(corner, scale);
+    const std::array<End, 6> ends = endsOf(camera);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.0f, 0.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
-    // A drag that begins beside its ends belongs to the picture.
-    const std::array<End, 6> ends = endsOf(camera);
-    const glm::vec2 mouse(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
-    const auto over = [&](const End& end) {
-        return glm::distance(mouse, middle + scale * end.place) <= (kEnd + 1.0f) * scale;
-    };
-    const bool any = std::ranges::any_of(ends, over);
-    ImGui::Begin("axes", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
-                     (any ? 0 : ImGuiWindowFlags_NoMouseInputs));
+    // A window for each end: what lies between them belongs to the picture. Failed: one window that took the
+    // mouse only while it was over an end learned of it a frame late, and a click within one frame was lost.
     std::optional<CameraMove> chosen;
     const char* hovered = nullptr;
-    for (auto end = ends.rbegin(); end != ends.rend(); ++end) { // the nearest is above the others
-        const float half = kEnd * scale;
-        const glm::vec2 place = middle + scale * end->place;
-        ImGui::SetCursorScreenPos(ImVec2(place.x - half, place.y - half));
-        if (ImGui::InvisibleButton(end->name, ImVec2(2.0f * half, 2.0f * half)))
-            chosen = end->move;
-        if (ImGui::IsItemHovered())
-            hovered = end->name;
-        mark(end->name);
+    const float half = kEnd * scale;
+    for (const End& end : ends) {
+        const glm::vec2 low = middle + scale * end.place - half;
+        ImGui::SetNextWindowPos(at(low));
+        ImGui::SetNextWindowSize(ImVec2(2.0f * half, 2.0f * half));
+        ImGui::Begin(end.name, nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                         ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+        ImGui::SetCursorScreenPos(at(low));
+        const bool clicked = ImGui::InvisibleButton("look", ImVec2(2.0f * half, 2.0f * half));
+        if (clicked || ImGui::IsItemHovered()) {
+            const End& nearest = nearestUnderMouse(ends, end, middle, scale); // the windows' order is not the ends'
+            hovered = nearest.name;
+            if (clicked)
+                chosen = nearest.move;
+        }
+        mark(end.name);
+        ImGui::End();
     }
-    paint(*ImGui::GetWindowDrawList(), ends, middle, scale, hovered);
-    ImGui::End();
     ImGui::PopStyleVar(2);
+    paint(*ImGui::GetBackgroundDrawList(), ends, middle, scale, hovered);
     return chosen;
 }
 

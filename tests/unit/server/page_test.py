@@ -55,12 +55,10 @@ class Page(Server):
         self.addCleanup(browser.wait)
         self.addCleanup(browser.terminate)
         self.addCleanup(page.close)
-        until(lambda: page.run("document.readyState === 'complete'"))
-        page.run("window.wrong = []; window.addEventListener('error', (e) => window.wrong.push(e.message))")
         until(lambda: page.run("model && model.count"))
         # The model fills much of the page: a picture of it takes more bytes than one of the panels alone.
         picture = until(lambda: next((p for p in [page.picture()] if len(p) > 20_000), None))
-        self.assertEqual(page.run("window.wrong.join()"), "")
+        self.assertEqual(page.wrong, [])
         keep = os.environ.get("TOUCHSTONE_KEEP_PICTURE")
         if keep:
             pathlib.Path(keep).write_bytes(picture)

@@ -186,7 +186,9 @@ TEST_F(PartWindowTest, TheMouseTouchesWhatItIsOverInEveryProjection) {
         display_.key(key);
     until("edges and grid",
           [](const Json& s) { return s["view"]["wireframe"] == true && s["view"]["grid"] == true; });
-    display_.click(middleOf("axis:+y"));
+    // Pointer and click within a frame: failed, the picture had it.
+    const VirtualDisplay::Place above = middleOf("axis:+y");
+    display_.xdotool({"mousemove", std::to_string(above.x), std::to_string(above.y), "click", "1"});
     until("the view from above", [](const Json& s) { return s["view"]["pitch"] > 1.57; });
     display_.click(middleOf("axis:+x"));
     until("the view from the right", [](const Json& s) {
