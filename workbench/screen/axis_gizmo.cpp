@@ -69,7 +69,8 @@ glm::vec2 middleAt(const glm::vec2& corner, float scale) {
     return corner + scale * glm::vec2(-kMargin - 0.5f * kSide, kMargin + 0.5f * kSide);
 }
 
-/// Of the ends under the pointer the nearest to the eye, which lies above the others; `otherwise` at a corner.
+/// Of the ends under the pointer the nearest to the eye, which lies above the others; `otherwise` at a
+/// corner.
 const End& nearestUnderMouse(const std::array<End, 6>& ends, const End& otherwise, const glm::vec2& middle,
                              float scale) {
     const glm::vec2 mouse(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
@@ -103,7 +104,8 @@ std::optional<CameraMove> drawAxisGizmo(const OrbitCamera& camera, const glm::ve
         ImGui::SetCursorScreenPos(at(low));
         const bool clicked = ImGui::InvisibleButton("look", ImVec2(2.0f * half, 2.0f * half));
         if (clicked || ImGui::IsItemHovered()) {
-            const End& nearest = nearestUnderMouse(ends, end, middle, scale); // the windows' order is not the ends'
+            const End& nearest =
+                nearestUnderMouse(ends, end, middle, scale); // the windows' order is not the ends'
             hovered = nearest.name;
             if (clicked)
                 chosen = nearest.move;
