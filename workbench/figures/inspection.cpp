@@ -126,7 +126,7 @@ Json savedTexturesJson(const HapticScene& haptic, size_t material) {
     return saved;
 }
 
-Json programJson(const program::FeltProgram& program, const MaterialProgram& material) {
+Json programJson(const program::FeltProgram& program, const MaterialProgram& material, int64_t longestNs) {
     Json parameters = Json::object();
     const auto& declared = material.compiled->source.parameters;
     for (size_t i = 0; i < declared.size(); ++i)
@@ -134,7 +134,7 @@ Json programJson(const program::FeltProgram& program, const MaterialProgram& mat
             material.values[i].begin(),
             material.values[i].begin() + static_cast<std::ptrdiff_t>(declared[i].components));
     Json json{{"name", program.name}, {"displaces", program.displaces}};
-    json.update(programFigures(program.code, program.compiled->text));
+    json.update(programFigures(program.code, program.compiled->text, longestNs));
     json["parameters"] = parameters;
     return json;
 }
@@ -165,7 +165,7 @@ Json materialsJson(const Model& model, int64_t longestNs) {
         if (!material.haptic.unavailable.is_null())
             json["not_yet_available"] = material.haptic.unavailable;
         if (const auto& program = model.haptic->materials[m].program; program != nullptr) {
-            json["program"] = programJson(*program, material.haptic.program);
+            json["program"] = programJson(*program, material.haptic.program, longestNs);
             if (program->texture.width > 0)
                 json["program"]["persistentTexture"] =
                     persistentTextureJson(*model.haptic, program->texture, m);
@@ -256,7 +256,7 @@ Json camerasJson(const Scene& scene) {
 /// Strokes the model for two seconds of simulated time and returns the median cost of each stage over the
 /// contact ticks. Null where no stroke can be laid (for example, all triangles have zero area) or it met
 /// nothing.
-Json tickCostJson(const Model& model) {
+Json tickCostJson(const Model& model, int64_t longestNs) {
     std::shared_ptr<const StrokePath> path;
     try {
         path = std::make_shared<StrokePath>(strokeOver(*model.scene, model.workspaceFromScene));
@@ -271,7 +271,8 @@ Json tickCostJson(const Model& model) {
     Samples whole;
     SteppedHand touch(*model.haptic);
     StageStopwatch stopwatch;
-    for (int i = 0; i < kTicks; ++i) {
+    const long long end = monotonicNs() + longestNs;
+    for (int i = 0; i < kTicks && monotonicNs() < end; ++i) {
         const HapticOutput& output = touch.step(HapticSettings{}, hand.sample(kTick * i), kTick, stopwatch);
         if (output.contacts == 0)
             continue;
@@ -375,7 +376,7 @@ Json inspectionOf(const Model& model, int64_t longestNs) {
               {"materials", materialsJson(model, longestNs)},
               {"objects", objectsJson(model)},
               {"perception", perceptionJson(model)},
-              {"tick_p50_ns", tickCostJson(model)},
+              {"tick_p50_ns", tickCostJson(model, longestNs)},
               {"neighbourhood", neighbourhoodJson(model)},
               {"slopes", slopesJson(model)},
               {"warnings", warningsJson(model)}};

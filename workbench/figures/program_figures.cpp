@@ -21,11 +21,14 @@ struct Figures {
 };
 
 /// Touches a stroke over a patch of 50 mm, 2 mm deep.
-Figures measure(const program::RegisterProgram& compiled, ProgramGradient gradient) {
+Figures measure(const program::RegisterProgram& compiled, ProgramGradient gradient,
+                std::chrono::steady_clock::time_point end) {
     constexpr int kBatches = 20, kCalls = 500;
     Figures figures{.ns = INFINITY};
     for (int batch = 0; batch < kBatches; ++batch) {
         const auto start = std::chrono::steady_clock::now();
+        if (batch > 0 && start > end)
+            break;
         int flagged = 0;
         for (int i = 0; i < kCalls; ++i) {
             const double t = static_cast<double>(i) / kCalls;
@@ -56,10 +59,12 @@ Figures measure(const program::RegisterProgram& compiled, ProgramGradient gradie
 
 } // namespace
 
-nlohmann::ordered_json programFigures(const program::RegisterProgram& compiled, std::string_view source) {
-    const Figures plain = measure(compiled, ProgramGradient::None),
-                  dual = measure(compiled, ProgramGradient::Dual),
-                  central = measure(compiled, ProgramGradient::Central);
+nlohmann::ordered_json programFigures(const program::RegisterProgram& compiled, std::string_view source,
+                                      int64_t longestNs) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(longestNs);
+    const Figures plain = measure(compiled, ProgramGradient::None, end),
+                  dual = measure(compiled, ProgramGradient::Dual, end),
+                  central = measure(compiled, ProgramGradient::Central, end);
     return {{"instructions", compiled.instructions.size()},
             {"registers", compiled.registers},
             {"ns_per_tick", std::round(plain.ns)},
