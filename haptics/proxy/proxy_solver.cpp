@@ -34,6 +34,8 @@ constexpr uint32_t kCircling = 10;
 /// Lifts (rising_slide.h) that count as a move. With their sweeps they cost more, so that a tick of lifts
 /// alone takes three times as long as one of moves; with fewer, a groove's steps use up the budget.
 constexpr int kLiftsPerMove = 3;
+/// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
+constexpr int kLeaps = 2;
 
 } // namespace
 
@@ -140,8 +142,10 @@ bool ProxySolver::returnTo(const glm::dvec3& p, const glm::dvec3&) noexcept {
 }
 
 void ProxySolver::moveTowards(const glm::dvec3& goal) noexcept {
+    leaps_ = kLeaps;
     while (advance(goal)) {
     }
+    leaps_ = 0; // a drop does not slide
 }
 
 void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
@@ -218,6 +222,41 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
         timeOfImpact(cache, state_.proxy, move, radius_ + kStrikeGap, 1.0) < 1.0)
         return false;
     placeAt(to);
+    return true;
+}
+
+/// From where one shape alone holds the proxy to where it rests on that shape, which the shape knows: a
+/// tangent plane finds it only in the limit, in some eight moves on a curved field. Where the surface rises
+/// the way is the chord; where it falls it goes along the tangent plane and then down. Made whole or not at
+/// all, and only towards the goal; the next move sees whether the proxy rests there.
+[[gnu::noinline]] bool ProxySolver::leapToRest(const glm::dvec3& goal) noexcept {
+    --leaps_;
+    const std::span<const Contact> contacts(rest_.contacts.data(), rest_.contactCount);
+    const int object = contacts[0].object;
+    if (std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+            return contact.candidate != Contact::kNoCandidate || contact.object != object;
+        }))
+        return false;
+    const glm::dvec3 start = state_.proxy;
+    glm::dvec3 place;
+    if (!state_.candidates.shapes().restNear(object, start, goal, radius_ + kContactGap, place))
+        return false;
+    const glm::dvec3 way = place - start;
+    const double length = glm::length(way);
+    if (!(length > 0.0) || !(glm::dot(way, goal - start) > 0.5 * length * length) ||
+        cover(way / length, length) < length)
+        return false;
+    const Contact& falls = *std::min_element(contacts.begin(), contacts.end(), [&](auto& a, auto& b) {
+        return glm::dot(way, a.normal) < glm::dot(way, b.normal);
+    });
+    const double rise = glm::dot(way, falls.normal);
+    // Over what the tangent plane meets, no higher than the way falls.
+    const auto overEdge = [&](double height) { return goStraight(place + height * falls.normal); };
+    if ((rise < 0.0 && !overEdge(-rise) && !overEdge(-2.0 * rise)) || !goStraight(place)) {
+        placeAt(start);
+        return false;
+    }
+    lastMove_ = length;
     return true;
 }
 
@@ -298,6 +337,12 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
         return false;
     }
     if (rest_.iterations >= kCreeping && rollAround(goal)) {
+        ++rest_.iterations;
+        withoutProgress_ = 0;
+        return true;
+    }
+    if (leaps_ > 0 && rest_.contactCount > 0 && rest_.contacts[0].candidate == Contact::kNoCandidate &&
+        leapToRest(goal)) {
         ++rest_.iterations;
         withoutProgress_ = 0;
         return true;

@@ -112,6 +112,7 @@ class ProxySolver {
     void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
+    [[nodiscard]] bool leapToRest(const glm::dvec3& goal) noexcept;
     [[nodiscard]] bool circles(const glm::dvec3& goal, double length) noexcept;
     void slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share, double covered) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
@@ -123,6 +124,7 @@ class ProxySolver {
     double workspaceRadius_;
     double radius_ = 0.0;
     int withoutProgress_ = 0;
+    int leaps_ = 0;               ///< that this solve may still try
     double lastMove_ = 0.0;       ///< object units, of this tick
     double lastSlide_ = INFINITY; ///< towards its goal, of this tick; only where shapes are near
     double travel_ = 0.0;         ///< of the HIP in this tick

@@ -49,6 +49,20 @@ bool NearShapes::seen(int object, FeatureId feature, const glm::dvec3& p,
     return false;
 }
 
+bool NearShapes::restNear(int object, const glm::dvec3& from, const glm::dvec3& goal, double distance,
+                          glm::dvec3& place) const noexcept {
+    for (size_t i = 0; i < count_; ++i)
+        if (const Placed& placed = placed_[i]; placed.object == object) {
+            const Similarity& objectFromReference = placed.objectFromReference;
+            if (!placed.shape->restNear(objectFromReference.point(from), objectFromReference.point(goal),
+                                        objectFromReference.scale * distance, place))
+                return false;
+            place = placed.referenceFromObject.point(place);
+            return true;
+        }
+    return false;
+}
+
 double NearShapes::nearest(const glm::dvec3& p, double reach) const noexcept {
     double least = INFINITY;
     (void)eachNear(p, reach, [&](int, const FeatureDistance& d) { least = std::min(least, d.distance); });

@@ -38,6 +38,10 @@ class NearShapes {
     [[nodiscard]] bool seen(int object, FeatureId feature, const glm::dvec3& p,
                             FeatureDistance& found) const noexcept;
 
+    /// Shape::restNear of one of the shapes. Reference frame. False also where the shape is not near.
+    [[nodiscard]] bool restNear(int object, const glm::dvec3& from, const glm::dvec3& goal, double distance,
+                                glm::dvec3& place) const noexcept;
+
     /// Calls visit(object, feature distance in the reference object frame) for every feature within `reach`
     /// of p. False where a shape has more features than fit.
     template <class Visit>

@@ -58,6 +58,14 @@ class Shape {
     [[nodiscard]] virtual FeatureDistance distanceFrom(FeatureId feature,
                                                        const glm::dvec3& point) const noexcept = 0;
 
+    /// Where a ball whose centre is pulled straight to `goal` rests at `distance` from the surface, looked
+    /// for from `from`: the place nearest to the goal among those around it. False where the shape knows
+    /// none; then, and where the way to it is not free, the solver finds it move by move.
+    [[nodiscard]] virtual bool restNear(const glm::dvec3& /*from*/, const glm::dvec3& /*goal*/,
+                                        double /*distance*/, glm::dvec3& /*place*/) const noexcept {
+        return false;
+    }
+
     /// Unit outward normal for force shading at `point` of a feature; zero where there is only the true one.
     [[nodiscard]] virtual glm::dvec3 shadingNormal(FeatureId feature,
                                                    const glm::dvec3& point) const noexcept = 0;

@@ -41,6 +41,11 @@ struct FieldCell {
                 c[3] + u.y * c[5] + u.x * c[6] + u.x * u.y * c[7]};
     }
 
+    /// The second derivatives by yz, zx and xy; those by xx, yy and zz are 0.
+    [[nodiscard]] glm::dvec3 mixed(const glm::dvec3& u) const noexcept {
+        return {c[5] + u.x * c[7], c[6] + u.y * c[7], c[4] + u.z * c[7]};
+    }
+
     /// The coefficients of f(u + t d), from t^0 to t^3.
     [[nodiscard]] std::array<double, 4> along(const glm::dvec3& u, const glm::dvec3& d) const noexcept {
         return {value(u), glm::dot(gradient(u), d),

@@ -42,6 +42,9 @@ class FieldShape final : public PotentialShape {
                               std::span<FeatureDistance> found) const noexcept override;
     [[nodiscard]] FeatureDistance distanceFrom(FeatureId feature,
                                                const glm::dvec3& point) const noexcept override;
+    /// False, too, in a kink between cells, where no smooth piece holds the ball alone.
+    [[nodiscard]] bool restNear(const glm::dvec3& from, const glm::dvec3& goal, double distance,
+                                glm::dvec3& place) const noexcept override;
     /// The direction of `gradient` [002 eqs. 1, 2].
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override;

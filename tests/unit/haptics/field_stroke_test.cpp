@@ -178,7 +178,49 @@ TEST(FieldStroke, TheProxyKeepsUpWhereTheSurfaceCurvesTowardsTheHand) {
             EXPECT_LT(s.lag, 0.5 * kVoxel) << body.name;
             EXPECT_LT(s.meanLag, 0.1 * kVoxel) << body.name;
             EXPECT_LT(s.unheld, 0.1) << body.name;
+            EXPECT_LT(s.moves, 1.5) << body.name; // with tangent planes alone 5 to 9
         }
+}
+
+/// Shape::restNear against its definition: on the isosurface, no place around it nearer to the goal.
+TEST(FieldStroke, TheFieldKnowsWhereABallRests) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int known = 0, asked = 0, onFaces = 0;
+    for (const Body& body : bodies()) {
+        const auto field = fieldOf(body.distance, kCells);
+        Wanderer hand(body, 1.0, 11);
+        for (int i = 0; i < 1000; ++i) {
+            hand.next();
+            const double level = 0.01 * std::abs(any(random)) + 1e-12, deep = 0.02 + 0.01 * any(random);
+            const glm::dvec3 up = hand.normal(), at = (hand.place() - FieldBench::kMiddle) / kScale;
+            const glm::dvec3 from =
+                at + level * up + 0.003 * glm::dvec3(any(random), any(random), any(random));
+            const glm::dvec3 goal = at - deep * up;
+            glm::dvec3 place;
+            ++asked;
+            if (!field->restNear(from, goal, level, place))
+                continue;
+            ++known;
+            ASSERT_NEAR(field->value(place), level, 2e-13) << body.name << " " << i;
+            const glm::dvec3 grid = field->grid().gridFromObject(place);
+            for (int axis = 0; axis < 3; ++axis)
+                onFaces += std::abs(grid[axis] - std::round(grid[axis])) < 1e-9;
+            const double sine =
+                unheld(*field, FieldBench::kMiddle + kScale * place, FieldBench::kMiddle + kScale * goal);
+            ASSERT_EQ(sine, 0.0) << body.name << " " << i;
+        }
+    }
+    std::printf("%d of %d known, %d in kinks between cells\n", known, asked, onFaces);
+    EXPECT_GT(known, asked * 9 / 10);
+    EXPECT_GT(onFaces, 0);
+    glm::dvec3 place;
+    const auto field = fieldOf(torus, kCells);
+    const glm::dvec3 above(0.5, 0.0, 0.0);
+    EXPECT_FALSE(field->restNear({0.42, 0.0, 0.0}, above, 0.0, place)) << "a goal in the air";
+    EXPECT_FALSE(field->restNear({5.0, 0.0, 0.0}, {0.4, 0.0, 0.0}, 0.0, place)) << "from beyond the grid";
+    EXPECT_FALSE(field->restNear({NAN, 0.0, 0.0}, {0.4, 0.0, 0.0}, 0.0, place));
+    EXPECT_FALSE(field->restNear({0.42, 0.0, 0.0}, {NAN, 0.0, 0.0}, 0.0, place));
 }
 
 /// Interpolated normals are smooth: what they hold is nearer to the smooth surface's place.
