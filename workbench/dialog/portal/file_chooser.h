@@ -2,6 +2,7 @@
 // The file chooser of xdg-desktop-portal, interface org.freedesktop.portal.FileChooser, over the session's
 // D-Bus.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
