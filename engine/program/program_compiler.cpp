@@ -60,15 +60,15 @@ std::string remedyFor(std::string_view message) {
         throw Error(source.name, "", "calls a function from itself", remedyFor("recursion"));
     const std::string caller = nameBefore(first), callee = nameBefore(second);
     const auto isName = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const std::string code = withoutComments(source.text);
     std::string place;
-    for (size_t at = source.text.find(caller); at != std::string::npos && place.empty();
-         at = source.text.find(caller, at + 1)) {
-        const size_t end = source.text.find_first_not_of(" \t", at + caller.size());
-        if ((at == 0 || !isName(source.text[at - 1])) && end != std::string::npos && source.text[end] == '(')
-            place =
-                "line " +
-                std::to_string(1 + std::count(source.text.begin(),
-                                              source.text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    for (size_t at = code.find(caller); at != std::string::npos && place.empty();
+         at = code.find(caller, at + 1)) {
+        const size_t end = code.find_first_not_of(" \t\n", at + caller.size());
+        if ((at == 0 || !isName(code[at - 1])) && end != std::string::npos && code[end] == '(')
+            place = "line " +
+                    std::to_string(
+                        1 + std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
     }
     throw Error(source.name, place,
                 "'" + caller + "' calls '" + callee + "', which comes back to it: recursion",

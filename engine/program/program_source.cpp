@@ -249,6 +249,23 @@ ProgramSource readProgramSource(const std::string& name, std::string_view text) 
     return source;
 }
 
+std::string withoutComments(std::string_view text) {
+    std::string code(text);
+    for (size_t at = code.find('/'); at != std::string::npos && at + 1 < code.size();
+         at = code.find('/', at + 1)) {
+        const bool block = code[at + 1] == '*';
+        if (!block && code[at + 1] != '/')
+            continue;
+        const size_t end = block ? code.find("*/", at + 2) : code.find('\n', at);
+        const size_t past = std::min(end, code.size() - (block ? 2 : 0)) + (block ? 2 : 0);
+        std::replace_if(
+            code.begin() + static_cast<std::ptrdiff_t>(at), code.begin() + static_cast<std::ptrdiff_t>(past),
+            [](char c) { return c != '\n'; }, ' ');
+        at = past - 1;
+    }
+    return code;
+}
+
 std::string declarationOf(const std::vector<ProgramParameter>& parameters) {
     if (parameters.empty())
         return "";

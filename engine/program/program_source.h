@@ -35,6 +35,9 @@ struct ProgramSource {
 /// Reads and checks the declarations. Throws Error, whose place is the line.
 [[nodiscard]] ProgramSource readProgramSource(const std::string& name, std::string_view text);
 
+/// The text with spaces in place of its comments: lines and places are the same.
+[[nodiscard]] std::string withoutComments(std::string_view text);
+
 /// GLSL that declares the parameters, the i-th of them in line i + 2.
 [[nodiscard]] std::string declarationOf(const std::vector<ProgramParameter>& parameters);
 

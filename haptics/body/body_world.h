@@ -131,7 +131,8 @@ class BodyWorld {
     void adopt(const FinderOutput& output) noexcept;
     void sleep(int body) noexcept;
     [[nodiscard]] bool takes(int body) noexcept;
-    double solvePush(Push& push, BodyIntegrator integrator, double dt) noexcept;
+    void measurePush(Push& push, double dt) const noexcept;
+    double solvePush(Push& push, double dt) noexcept;
     void applyPushes(BodyIntegrator integrator, double dt) noexcept;
     [[nodiscard]] int islandOf(int body) noexcept;
     void writeBody(int body, std::span<ObjectMotion> motions, bool first) noexcept;
@@ -145,8 +146,12 @@ class BodyWorld {
     struct Push {
         int body = -1;
         HandPush hand;
-        glm::dvec3 torque{0.0}; ///< N m, workspace, besides that of the force
-        double exerted = 0.0;   ///< N, along the force
+        glm::dvec3 torque{0.0};            ///< N m, workspace, besides that of the force
+        glm::dvec3 lever{0.0}, along{0.0}; ///< from the body's centre; the force's direction
+        glm::dvec3 turns{0.0};             ///< (kg m)^-1: spin for an impulse along it
+        double rate = 0.0;                 ///< dt^2 k / m of its spring and what that meets
+        double exerted = 0.0;              ///< N, along the force
+        bool atEnd = false;                ///< the force is that of the end of the step
     };
 
     std::vector<std::string> names_;

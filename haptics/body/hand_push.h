@@ -11,6 +11,7 @@ struct HandPush {
     glm::dvec3 velocity{0.0}; ///< m/s, of the hand
     double stiffness = 0.0;   ///< N/m, of the contact that exerts it
     double most = 0.0;        ///< N, what its device can exert
+    double wanted = 1.0;      ///< the spring's force over `force`; above 1 where it is beyond `most`
 };
 
 } // namespace touchstone::body

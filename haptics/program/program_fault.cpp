@@ -1,5 +1,7 @@
 #include "haptics/program/program_fault.h"
 
+#include "engine/program/program_source.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -71,21 +73,31 @@ Origin originOf(const RegisterProgram& program, size_t output) {
     return origin;
 }
 
+/// True where an assignment follows: "=", also after an operator, but no comparison; past a swizzle or an
+/// index.
+bool isAssigned(std::string_view after) {
+    const auto skip = [&](std::string_view set) {
+        after.remove_prefix(std::min(after.find_first_not_of(set), after.size()));
+    };
+    if (after.starts_with('.'))
+        skip(".xyzwrgba");
+    if (after.starts_with('['))
+        after.remove_prefix(std::min(after.find(']'), after.size() - 1) + 1);
+    skip(" \t");
+    if (after.size() > 1 && std::string_view("+-*/").find(after[0]) != std::string_view::npos)
+        after.remove_prefix(1);
+    return after.starts_with('=') && !after.starts_with("==");
+}
+
 /// The last line that assigns to a member of this name; 0: none.
 uint32_t assignmentIn(std::string_view text, const std::string& member) {
-    uint32_t line = 0, found = 0;
-    for (size_t begin = 0; begin <= text.size();) {
-        const size_t end = std::min(text.find('\n', begin), text.size());
-        const std::string_view own = text.substr(begin, end - begin);
-        ++line;
-        begin = end + 1;
-        const size_t at = own.find("." + member);
-        if (at == std::string_view::npos)
-            continue;
-        const size_t equals = own.find('=', at);
-        if (equals != std::string_view::npos && (equals + 1 == own.size() || own[equals + 1] != '='))
-            found = line;
-    }
+    const std::string code = withoutComments(text);
+    const std::string name = "." + member;
+    uint32_t found = 0;
+    for (size_t at = code.find(name); at != std::string::npos; at = code.find(name, at + 1))
+        if (isAssigned(std::string_view(code).substr(at + name.size())))
+            found = static_cast<uint32_t>(
+                1 + std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
     return found;
 }
 

@@ -69,10 +69,15 @@ inline void publishForce(const HandTick& tick, const Similarity& workspaceFromRe
     output.force = workspaceFromReference.direction(felt.force);
     if (share < 1.0)
         output.force *= share;
-    if (tick.parts != nullptr && felt.object >= 0) [[unlikely]]
-        pushObjects(workspaceFromReference, felt.force, bornByDevice(tick, felt, share),
-                    {.velocity = travel / tick.dt, .stiffness = felt.stiffness, .most = tick.limits.maxForce},
+    if (tick.parts != nullptr && felt.object >= 0) [[unlikely]] {
+        const double born = bornByDevice(tick, felt, share);
+        pushObjects(workspaceFromReference, felt.force, born,
+                    {.velocity = travel / tick.dt,
+                     .stiffness = share * felt.stiffness,
+                     .most = tick.limits.maxForce,
+                     .wanted = born > 0.0 ? share / born : 1.0},
                     *tick.parts, world);
+    }
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.

@@ -20,6 +20,13 @@ distinctPrograms(const std::vector<MaterialProgram>& programs) {
     return distinct;
 }
 
+std::vector<MaterialProgram> programsOf(std::span<const Material> materials) {
+    std::vector<MaterialProgram> programs;
+    for (const Material& material : materials)
+        programs.push_back(material.haptic.program);
+    return programs;
+}
+
 } // namespace
 
 void DrawnMaterials::shown(ScenePtr scene) {
@@ -33,8 +40,15 @@ void DrawnMaterials::shown(ScenePtr scene) {
 
 void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool needed) {
     const bool stale = drawn_ != scene && (drawn_ == nullptr || needed);
-    if (stale && !preparing_.valid() && redrawn_ == nullptr)
-        preparing_ = std::async(std::launch::async, [scene] { return prepareScene(scene); });
+    if (stale && !preparing_.valid() && redrawn_ == nullptr) {
+        std::vector<MaterialProgram> programs = programsOf(scene->materials);
+        const std::string ahead = compiled(programs) ? "" : device_;
+        preparing_ = std::async(std::launch::async, [scene, ahead, programs = std::move(programs)] {
+            if (!ahead.empty())
+                compileAhead(ahead, *scene, programs);
+            return prepareScene(scene);
+        });
+    }
     try {
         if (preparing_.valid() && preparing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
             const std::shared_ptr<const PreparedScene> prepared = preparing_.get();
@@ -45,6 +59,7 @@ void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool
         }
         if (redrawn_ != nullptr && renderer.continueScene(kUploadTime)) {
             drawn_ = std::exchange(redrawn_, nullptr);
+            compiled_ = distinctPrograms(programsOf(drawn_->materials));
             ++redraws_;
         }
     } catch (const DeviceLost&) {
@@ -61,9 +76,7 @@ void DrawnMaterials::showPrograms(SceneRenderer& renderer, std::span<const Mater
     const std::pair now(renderer.sceneNumber(), revision);
     if (drawn_ == nullptr || programs_ == now || drawn_->materials.size() != materials.size())
         return;
-    std::vector<MaterialProgram> programs;
-    for (const Material& material : materials)
-        programs.push_back(material.haptic.program);
+    std::vector<MaterialProgram> programs = programsOf(materials);
     if (compiling_.valid()) {
         if (compiling_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return;

@@ -253,9 +253,9 @@ Json camerasJson(const Scene& scene) {
     return cameras;
 }
 
-/// Strokes the model for two seconds of simulated time and returns the median cost of each stage over the
-/// contact ticks. Null where no stroke can be laid (for example, all triangles have zero area) or it met
-/// nothing.
+/// Strokes the model for two seconds of simulated time, or `longestNs` ns, and returns the median cost of
+/// each stage over the contact ticks. Null where no stroke can be laid (for example, all triangles have zero
+/// area) or it met nothing.
 Json tickCostJson(const Model& model, int64_t longestNs) {
     std::shared_ptr<const StrokePath> path;
     try {

@@ -302,8 +302,8 @@ glm::ivec3 FieldGrid::cellOf(uint32_t number) const noexcept {
 }
 
 double FieldGrid::node(const glm::ivec3& at) const noexcept {
-    const glm::ivec3 cell = glm::min(at, layout_.cells - 1), corner = at - cell;
-    return this->cell(cell).value(glm::dvec3(corner));
+    const glm::ivec3 brick = glm::min(at, layout_.cells - 1) / kBrick;
+    return static_cast<double>(valueIn(brick, at - kBrick * brick));
 }
 
 glm::dvec3 FieldGrid::nodeGradient(const glm::ivec3& at) const noexcept {

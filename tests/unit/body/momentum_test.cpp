@@ -49,7 +49,7 @@ Balance pushed(double mass, const HapticSettings& settings, const std::vector<gl
             const glm::dvec3 exerted = size > kMost ? kMost / size * output.force : output.force;
             balance.impulse -= kDt * exerted;
             balance.given += kDt * glm::length(exerted);
-            sum += size;
+            sum += glm::length(exerted);
         }
         balance.most = std::max(balance.most, sum);
         balance.spin = std::max(balance.spin, glm::length(cube.spin));
@@ -60,14 +60,15 @@ Balance pushed(double mass, const HapticSettings& settings, const std::vector<gl
 
 /// One hand in the middle of a face, or two beside it, in free space without weight. What is pushed
 /// implicitly takes the force at the end of each step, which the hand feels in the next: they differ by about
-/// one step's force, whatever the way.
+/// one step's force, whatever the way: also over 60 mm, most of them with the device at its greatest force
+/// (failed: 1.4 to 1.8 % lost).
 TEST(Momentum, IsTheImpulseOfOneHandAndOfTwo) {
     enterFloatMode();
     double worst = 0.0;
     for (const BodyIntegrator integrator :
          {BodyIntegrator::Explicit, BodyIntegrator::SemiImplicit, BodyIntegrator::Implicit})
         for (const double mass : {0.001, 0.01, 0.05, 0.1, 1.0, 10.0})
-            for (const size_t hands : {1, 2}) {
+            for (const auto& [hands, way] : {std::pair{1, 0.03}, {2, 0.03}, {1, 0.06}}) {
                 HapticSettings settings;
                 settings.gravity = 0.0;
                 settings.integrator = integrator;
@@ -76,12 +77,15 @@ TEST(Momentum, IsTheImpulseOfOneHandAndOfTwo) {
                 if (hands == 2)
                     starts = {{-0.03, 0.008, 0.0}, {-0.03, -0.008, 0.0}};
                 const Balance balance =
-                    pushed(mass, settings, starts, {hands, glm::dvec3(0.03, 0.0, 0.0)}, 0.1);
+                    pushed(mass, settings, starts, {starts.size(), glm::dvec3(way, 0.0, 0.0)}, 0.1);
                 const double part = glm::length(balance.momentum - balance.impulse) / balance.given;
-                std::printf("%s, %g kg, %zu hands: momentum %.7f N s, impulse %.7f N s, %.2g of it apart\n",
-                            nameOf(integrator), mass, hands, balance.momentum.x, balance.impulse.x, part);
+                std::printf(
+                    "%s, %g kg, %d hands, %g m: momentum %.7f N s, impulse %.7f N s, %.2g of it apart\n",
+                    nameOf(integrator), mass, hands, way, balance.momentum.x, balance.impulse.x, part);
                 EXPECT_GT(balance.momentum.x, 0.0);
-                const double steps = integrator == BodyIntegrator::Explicit || (part < 1e-4) ? 0.0 : 1.5;
+                const bool atBeginning = integrator == BodyIntegrator::Explicit ||
+                                         (integrator == BodyIntegrator::SemiImplicit && mass >= 0.01);
+                const double steps = atBeginning ? 0.0 : 1.5;
                 EXPECT_LE(glm::length(balance.momentum - balance.impulse),
                           steps * kDt * balance.most + 1e-4 * balance.given);
                 EXPECT_LE(part, mass < 0.02 ? 0.5 : 0.016);

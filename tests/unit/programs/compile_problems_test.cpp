@@ -61,6 +61,10 @@ TEST(ProgramProblems, WhatProgramsDoNotHaveIsRefusedAtItsLine) {
                       touchBody("after.force.x = f(before.position.x);"),
                   "line 3: ", "'f' calls 'f', which comes back to it: recursion");
     expectProblem(
+        "// f(x)\n/* float\nf(float x) */ float\nf (float x) { return x > 1.0 ? f(x - 1.0) : x; }\n" +
+            touchBody("after.force.x = f(before.position.x);"),
+        "line 4: ", "'f' calls 'f'");
+    expectProblem(
         "float g(float x);\nfloat h(float x) { return g(x); }\nfloat g(float x) { return h(x); }\n" +
             touchBody("after.force.x = g(before.position.x);"),
         "line ", "recursion");

@@ -45,6 +45,13 @@ TEST(ProgramFaults, NameTheLineThatHasNoResult) {
          2, "after.staticFriction"},
         {"vec3 f = before.force * 1e38;\nafter.force = f * 1e38;", 3, "after.force"},
         {"\nafter.force = vec3(1e38) * 1e38;", 3, "after.force"}, // a constant
+        // What only looks like an assignment is none.
+        {"after.force = vec3(1e38) * 1e38; // as\n// after.force = 1.0\n/* after.force =\n after.force = 2.0 "
+         "*/",
+         2, "after.force"},
+        {"after.force /= vec3(0.0) * 1.0;\nif (after.force.x <= 1.0 || after.force.y == 2.0) after.damping = "
+         "1.0;",
+         2, "after.force"},
         {"float n = noise(before.position) + 2.0;\nafter.stiffness = log(-n);", 3, "after.stiffness"},
     };
     for (const auto& one : cases)
