@@ -41,12 +41,12 @@ void DrawnMaterials::shown(ScenePtr scene) {
 void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool needed) {
     const bool stale = drawn_ != scene && (drawn_ == nullptr || needed);
     if (stale && !preparing_.valid() && redrawn_ == nullptr) {
-        std::vector<MaterialProgram> programs = programsOf(scene->materials);
-        const std::string ahead = compiled(programs) ? "" : device_;
-        preparing_ = std::async(std::launch::async, [scene, ahead, programs = std::move(programs)] {
+        const std::string ahead = compiled(programsOf(scene->materials)) ? "" : device_;
+        preparing_ = std::async(std::launch::async, [scene, ahead] {
+            auto prepared = prepareScene(scene);
             if (!ahead.empty())
-                compileAhead(ahead, *scene, programs);
-            return prepareScene(scene);
+                compileAhead(ahead, prepared);
+            return prepared;
         });
     }
     try {
