@@ -36,6 +36,10 @@ constexpr uint32_t kCircling = 10;
 constexpr int kLiftsPerMove = 3;
 /// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
 constexpr int kLeaps = 2;
+/// A leap goes about where the tangent planes lead, off by at most this share of their move: by the depth
+/// times the curvature. What is farther off lies beyond an edge, where no slide ends. (Failed: from the face
+/// of a cut ball, 1 mm deep, over its rim.)
+constexpr double kLeapOff = 1.0;
 
 } // namespace
 
@@ -243,8 +247,10 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
         return false;
     const glm::dvec3 way = place - start;
     const double length = glm::length(way);
-    if (!(length > 0.0) || !(glm::dot(way, goal - start) > 0.5 * length * length) ||
-        cover(way / length, length) < length)
+    const glm::dvec3 off = way - rest_.activeSet.point;
+    if (!(length > 0.0) ||
+        glm::dot(off, off) > kLeapOff * kLeapOff * glm::dot(rest_.activeSet.point, rest_.activeSet.point) ||
+        !(glm::dot(way, goal - start) > 0.5 * length * length) || cover(way / length, length) < length)
         return false;
     const Contact& falls = *std::min_element(contacts.begin(), contacts.end(), [&](auto& a, auto& b) {
         return glm::dot(way, a.normal) < glm::dot(way, b.normal);

@@ -42,10 +42,11 @@ class CutField final : public PotentialShape {
                               std::span<FeatureDistance> found) const noexcept override;
     [[nodiscard]] FeatureDistance distanceFrom(FeatureId feature,
                                                const glm::dvec3& point) const noexcept override;
-    /// On the field: a ball that the face holds rests by the first move.
+    /// On the field, from there: a ball that the face holds rests by the first move.
     [[nodiscard]] bool restNear(const glm::dvec3& from, const glm::dvec3& goal, double distance,
                                 glm::dvec3& place) const noexcept override {
-        return field_->restNear(from, goal, distance, place) && beyond(place) < distance;
+        return field_->value(from) >= beyond(from) && field_->restNear(from, goal, distance, place) &&
+               beyond(place) < distance;
     }
     [[nodiscard]] glm::dvec3 shadingNormal(FeatureId feature,
                                            const glm::dvec3& point) const noexcept override;
