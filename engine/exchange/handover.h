@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <utility>
 
 namespace touchstone {
 
@@ -21,12 +22,18 @@ class Handover {
     /// Servo thread, at a tick boundary. Returns the object to use from now on; null until the first offer.
     /// While the owner has not collected the previous object, a new offer waits for the next tick.
     const T* adopt() noexcept {
-        if (offered_.load(std::memory_order_relaxed) != nullptr &&
-            released_.load(std::memory_order_acquire) == nullptr) {
-            if (Holder* fresh = offered_.exchange(nullptr, std::memory_order_acq_rel)) {
-                released_.store(current_, std::memory_order_release);
-                current_ = fresh;
-            }
+        return adopt([](const T*) { return true; });
+    }
+    /// The same; what was taken stays aside for as long as `ready(object)` is false, and newer offers wait
+    /// behind it. Called once a tick at most; must not throw.
+    template <class Ready>
+    const T* adopt(Ready&& ready) noexcept {
+        if (aside_ == nullptr && offered_.load(std::memory_order_relaxed) != nullptr &&
+            released_.load(std::memory_order_acquire) == nullptr)
+            aside_ = offered_.exchange(nullptr, std::memory_order_acq_rel);
+        if (aside_ != nullptr && ready(static_cast<const T*>(aside_->object.get()))) {
+            released_.store(current_, std::memory_order_release);
+            current_ = std::exchange(aside_, nullptr);
         }
         return current_ != nullptr ? current_->object.get() : nullptr;
     }
@@ -34,7 +41,7 @@ class Handover {
     /// Owner thread: frees what the servo no longer uses.
     void collect() { delete released_.exchange(nullptr, std::memory_order_acq_rel); }
 
-    /// Owner thread: true while an offer waits to be adopted.
+    /// Any thread: true while an offer waits to be taken.
     [[nodiscard]] bool pending() const noexcept {
         return offered_.load(std::memory_order_acquire) != nullptr;
     }
@@ -46,6 +53,7 @@ class Handover {
     ~Handover() {
         delete offered_.load();
         delete released_.load();
+        delete aside_;
         delete current_;
     }
 
@@ -55,7 +63,7 @@ class Handover {
     };
     std::atomic<Holder*> offered_{nullptr};
     std::atomic<Holder*> released_{nullptr};
-    Holder* current_ = nullptr; // servo thread
+    Holder *current_ = nullptr, *aside_ = nullptr; // servo thread; aside: taken, not adopted yet
 };
 
 } // namespace touchstone

@@ -41,9 +41,21 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
     touch.previousTime = std::numeric_limits<double>::quiet_NaN();
 }
 
+/// True where touch can go on in `next`: its vertices of the preceding tick are published, and in that tick
+/// the hands felt those; or the publisher, who is told where that is, had `longest` ticks. Else the servo or
+/// the thread that offers stood still for longer than is published ahead, or the animation was wound on with
+/// the offer. (Failed: an offer taken up after a tick whose vertices had stood still left the hand beside the
+/// sheet.)
+bool ServoLoop::Touch::canTakeOver(const Offer& next, uint64_t longest) noexcept {
+    const bool goesOn = next.geometry == geometry && std::isfinite(previousTime);
+    if (goesOn && (offer->world.held() || !next.world.reach(previousTime)) && aside++ < longest)
+        return false;
+    aside = 0;
+    return true;
+}
+
 /// Touch goes on in a scene of equal geometry. False where it cannot: the vertices of the preceding tick are
-/// not published (the servo stood still for longer than was published ahead, or the animation was wound on
-/// with the offer). The hands would be taken over on vertices of another time, and a replay, which has all
+/// not published. The hands would be taken over on vertices of another time, and a replay, which has all
 /// of them, would differ from there on.
 bool ServoLoop::Touch::takeOver(const Offer& next, bool otherPart) noexcept {
     // As in a replay that resumes here: the objects have their previous poses.
@@ -72,7 +84,9 @@ bool ServoLoop::Touch::takeOver(const Offer& next, bool otherPart) noexcept {
 void ServoLoop::prepare(Touch& touch) noexcept {
     TickRecord& record = touch.record();
     // The scene first: settings that were sent before it was offered are there.
-    const Offer* const root = scene_.adopt();
+    const auto longestAside = static_cast<uint64_t>(config_.longestAside * config_.rateHz);
+    const Offer* const root = scene_.adopt(
+        [&](const Offer* next) { return next == nullptr || touch.canTakeOver(*next, longestAside); });
     settings_.update();
     const NumberedSettings& settings = root != nullptr && root->settings.number > settings_.value().number
                                            ? root->settings

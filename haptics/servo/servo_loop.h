@@ -63,6 +63,7 @@ struct ServoConfig {
     bool wantRealtime = true;       ///< false: request nothing from the system (tests, sanitizers)
     double checkpointSeconds = 1.0; ///< from one TouchCheckpoint to the next
     bool stageTimes = false;        ///< TickRecord::stageNs; some 200 ns a tick
+    double longestAside = 0.25;     ///< s: an edited scene waits for its vertices of the preceding tick
 };
 
 inline constexpr double kMinServoRate = 100.0;  ///< Hz; below it a stiff wall can no longer be stable

@@ -53,7 +53,9 @@ struct ServoLoop::Touch {
                                .object = output.object};
     }
 
-    /// After an offer of equal geometry (adopt_offers.cpp).
+    /// Offers of equal geometry (adopt_offers.cpp).
+    [[nodiscard]] bool canTakeOver(const Offer& next, uint64_t longest) noexcept;
+    uint64_t aside = 0; // ticks for which the next offer has waited
     [[nodiscard]] bool takeOver(const Offer& next, bool otherPart) noexcept;
 
     /// The command without contact: the force that the device still holds goes to zero within its limits.

@@ -45,6 +45,13 @@ class DeformingObjects {
     /// `jumped` of the objects whose animation starts again at another place. `hold`: they stay.
     void advance(double time, bool begins, bool hold, std::span<ObjectMotion> motions) noexcept;
 
+    /// Before the first `advance`: begins at `time`; false where its publication is not there yet, but
+    /// wanted.
+    [[nodiscard]] bool reach(double time) noexcept {
+        advance(time, true, false, {});
+        return !held_;
+    }
+
     /// The tick's publication was not there in time: the vertices stayed where they were.
     [[nodiscard]] bool held() const noexcept { return held_; }
     /// Which places the tick blends.

@@ -94,6 +94,11 @@ class WorldState {
         if (soft_ != nullptr)
             stepSoftApart();
     }
+    /// Before the first `advance`: true where the deforming objects have their vertices of `time`; whoever
+    /// publishes them is told that they are wanted.
+    [[nodiscard]] bool reach(double time) const noexcept {
+        return deforming_ == nullptr || deforming_->reach(time);
+    }
     /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
     /// it.
     [[nodiscard]] ObjectMotions poses() const noexcept { return poses_; }

@@ -185,15 +185,43 @@ TEST(Handover, AnOfferWaitsWhileTheOldObjectIsNotCollected) {
     EXPECT_EQ(handover.adopt()->content.words[0], 3u);
 }
 
+TEST(Handover, WhatIsNotReadyStaysAsideAndNewerOffersWaitBehindIt) {
+    std::atomic<int> living{0}, strangers{0};
+    {
+        Handover<Traced> handover;
+        uint64_t ready = 0; // the first number that is not
+        const auto adopt = [&] {
+            const Traced* const object =
+                handover.adopt([&](const Traced* next) { return next->content.words[0] < ready; });
+            return object != nullptr ? object->content.words[0] : 0;
+        };
+        handover.offer(std::make_shared<Traced>(1, living, strangers));
+        EXPECT_EQ(adopt(), 0u);
+        handover.offer(std::make_shared<Traced>(2, living, strangers));
+        handover.offer(std::make_shared<Traced>(3, living, strangers)); // instead of 2
+        EXPECT_EQ(living, 2);
+        EXPECT_EQ(adopt(), 0u);
+        ready = 2;
+        EXPECT_EQ(adopt(), 1u);
+        EXPECT_EQ(adopt(), 1u) << "3 is not ready";
+        ready = 4;
+        EXPECT_EQ(adopt(), 3u);
+        handover.offer(std::make_shared<Traced>(5, living, strangers));
+        EXPECT_EQ(adopt(), 3u);
+    }
+    EXPECT_EQ(living, 0) << "nor is what was aside leaked";
+    EXPECT_EQ(strangers, 0);
+}
+
 TEST(Handover, TheServoNeverSeesAFreedObjectAndNeverFreesOne) {
     std::atomic<int> living{0}, strangers{0};
     std::atomic<bool> finished{false};
-    uint64_t broken = 0, backwards = 0, last = 0;
+    uint64_t broken = 0, backwards = 0, last = 0, looks = 0;
     {
         Handover<Traced> handover;
         std::thread servo([&] {
             while (!finished.load(std::memory_order_acquire)) {
-                const Traced* object = handover.adopt();
+                const Traced* object = handover.adopt([&](const Traced*) { return ++looks % 3 == 0; });
                 if (object == nullptr)
                     continue;
                 if (!object->content.whole())
@@ -206,7 +234,7 @@ TEST(Handover, TheServoNeverSeesAFreedObjectAndNeverFreesOne) {
         });
         for (uint64_t i = 1; i <= 20'000; ++i) {
             handover.offer(std::make_shared<Traced>(i, living, strangers));
-            EXPECT_LE(living, 4) << "offered, current, released and one in the making";
+            EXPECT_LE(living, 5) << "offered, aside, current, released and one in the making";
             if (i % 7 == 0)
                 handover.collect();
             if (i % 3 == 0)
