@@ -66,9 +66,7 @@ std::string remedyFor(std::string_view message) {
          at = code.find(caller, at + 1)) {
         const size_t end = code.find_first_not_of(" \t\n", at + caller.size());
         if ((at == 0 || !isName(code[at - 1])) && end != std::string::npos && code[end] == '(')
-            place = "line " +
-                    std::to_string(
-                        1 + std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            place = "line " + std::to_string(lineAt(code, at));
     }
     throw Error(source.name, place,
                 "'" + caller + "' calls '" + callee + "', which comes back to it: recursion",

@@ -266,6 +266,10 @@ std::string withoutComments(std::string_view text) {
     return code;
 }
 
+uint32_t lineAt(std::string_view text, size_t place) {
+    return 1 + static_cast<uint32_t>(std::ranges::count(text.substr(0, place), '\n'));
+}
+
 std::string declarationOf(const std::vector<ProgramParameter>& parameters) {
     if (parameters.empty())
         return "";

@@ -38,6 +38,9 @@ struct ProgramSource {
 /// The text with spaces in place of its comments: lines and places are the same.
 [[nodiscard]] std::string withoutComments(std::string_view text);
 
+/// The line of the place in the text, from 1.
+[[nodiscard]] uint32_t lineAt(std::string_view text, size_t place);
+
 /// GLSL that declares the parameters, the i-th of them in line i + 2.
 [[nodiscard]] std::string declarationOf(const std::vector<ProgramParameter>& parameters);
 

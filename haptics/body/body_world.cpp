@@ -11,6 +11,7 @@ namespace {
 /// falls asleep.
 constexpr double kQuiet = 3e-3, kRestAfter = 0.5;
 constexpr uint64_t kSleepEvery = 16, kPublishEvery = 8;
+
 bool same(const Pose& a, const Pose& b) {
     return a.rotation == b.rotation && a.position == b.position;
 }

@@ -96,8 +96,7 @@ uint32_t assignmentIn(std::string_view text, const std::string& member) {
     uint32_t found = 0;
     for (size_t at = code.find(name); at != std::string::npos; at = code.find(name, at + 1))
         if (isAssigned(std::string_view(code).substr(at + name.size())))
-            found = static_cast<uint32_t>(
-                1 + std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            found = lineAt(code, at);
     return found;
 }
 

@@ -36,10 +36,6 @@ constexpr uint32_t kCircling = 10;
 constexpr int kLiftsPerMove = 3;
 /// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
 constexpr int kLeaps = 2;
-/// A leap goes about where the tangent planes lead, off by at most this share of their move: by the depth
-/// times the curvature. What is farther off lies beyond an edge, where no slide ends. (Failed: from the face
-/// of a cut ball, 1 mm deep, over its rim.)
-constexpr double kLeapOff = 1.0;
 
 } // namespace
 
@@ -247,9 +243,12 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
         return false;
     const glm::dvec3 way = place - start;
     const double length = glm::length(way);
-    const glm::dvec3 off = way - rest_.activeSet.point;
-    if (!(length > 0.0) ||
-        glm::dot(off, off) > kLeapOff * kLeapOff * glm::dot(rest_.activeSet.point, rest_.activeSet.point) ||
+    // It ends about where the tangent planes lead, off by the depth times the curvature. What is farther off
+    // than their move is long lies beyond an edge, where no slide ends. (Failed: from the face of a cut ball,
+    // 1 mm deep, over its rim.)
+    const glm::dvec3& planar = rest_.activeSet.point;
+    const glm::dvec3 off = way - planar;
+    if (!(length > 0.0) || glm::dot(off, off) > glm::dot(planar, planar) ||
         !(glm::dot(way, goal - start) > 0.5 * length * length) || cover(way / length, length) < length)
         return false;
     const Contact& falls = *std::min_element(contacts.begin(), contacts.end(), [&](auto& a, auto& b) {

@@ -38,29 +38,33 @@ double NearShapes::sweep(const glm::dvec3& p, const glm::dvec3& move, double rea
     return limit;
 }
 
+const NearShapes::Placed* NearShapes::find(int object) const noexcept {
+    for (size_t i = 0; i < count_; ++i)
+        if (placed_[i].object == object)
+            return &placed_[i];
+    return nullptr;
+}
+
 bool NearShapes::seen(int object, FeatureId feature, const glm::dvec3& p,
                       FeatureDistance& found) const noexcept {
-    for (size_t i = 0; i < count_; ++i)
-        if (const Placed& placed = placed_[i]; placed.object == object) {
-            found =
-                inReference(placed, placed.shape->distanceFrom(feature, placed.objectFromReference.point(p)));
-            return true;
-        }
-    return false;
+    const Placed* const placed = find(object);
+    if (placed == nullptr)
+        return false;
+    found = inReference(*placed, placed->shape->distanceFrom(feature, placed->objectFromReference.point(p)));
+    return true;
 }
 
 bool NearShapes::restNear(int object, const glm::dvec3& from, const glm::dvec3& goal, double distance,
                           glm::dvec3& place) const noexcept {
-    for (size_t i = 0; i < count_; ++i)
-        if (const Placed& placed = placed_[i]; placed.object == object) {
-            const Similarity& objectFromReference = placed.objectFromReference;
-            if (!placed.shape->restNear(objectFromReference.point(from), objectFromReference.point(goal),
-                                        objectFromReference.scale * distance, place))
-                return false;
-            place = placed.referenceFromObject.point(place);
-            return true;
-        }
-    return false;
+    const Placed* const placed = find(object);
+    if (placed == nullptr)
+        return false;
+    const Similarity& objectFromReference = placed->objectFromReference;
+    if (!placed->shape->restNear(objectFromReference.point(from), objectFromReference.point(goal),
+                                 objectFromReference.scale * distance, place))
+        return false;
+    place = placed->referenceFromObject.point(place);
+    return true;
 }
 
 double NearShapes::nearest(const glm::dvec3& p, double reach) const noexcept {

@@ -71,6 +71,9 @@ class NearShapes {
                 referenceFromObject.point(d.closest), d.feature};
     }
 
+    /// Null where the object's shape is not near.
+    [[nodiscard]] const Placed* find(int object) const noexcept;
+
     std::array<Placed, kMaxShapes> placed_;
     size_t count_ = 0;
 };

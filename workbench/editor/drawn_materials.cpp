@@ -32,10 +32,7 @@ std::vector<MaterialProgram> programsOf(std::span<const Material> materials) {
 void DrawnMaterials::shown(ScenePtr scene) {
     drawn_ = std::move(scene);
     redrawn_.reset();
-    compiled_.clear();
-    for (const Material& material : drawn_->materials) // compiled while it was opened
-        if (material.haptic.program)
-            compiled_.push_back(material.haptic.program.compiled);
+    compiled_ = distinctPrograms(programsOf(drawn_->materials)); // while it was opened
 }
 
 void DrawnMaterials::update(SceneRenderer& renderer, const ScenePtr& scene, bool needed) {
