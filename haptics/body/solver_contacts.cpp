@@ -110,30 +110,24 @@ void BodySolver::prepareContacts(const SolverState& s, double dt) noexcept {
         if (!movesA && !movesB)
             continue;
         const ContactPlace place = placeOf(contact, s.states);
-        ActiveContact& active = active_[activeCount_];
-        active = ActiveContact{};
-        active.index = i;
-        active.gap = place.gap;
-        const glm::dvec3 tangent = poseOf(s.states, contact.frame).rotation * contact.tangent;
         const glm::dvec3 armA = place.onA - poseOf(s.states, contact.a).position,
                          armB = place.onB - poseOf(s.states, contact.b).position;
         const auto row = [&](const glm::dvec3& direction) {
-            Row made{.a = contact.a,
-                     .b = contact.b,
-                     .linear = direction,
-                     .angularA = glm::cross(armA, direction),
-                     .angularB = -glm::cross(armB, direction)};
-            connect(s, made);
-            return made;
+            return Row{.a = contact.a,
+                       .b = contact.b,
+                       .linear = direction,
+                       .angularA = glm::cross(armA, direction),
+                       .angularB = -glm::cross(armB, direction)};
         };
-        active.normal = row(place.normal);
-        // A gap may close in this step, and no further.
-        active.normal.target = place.gap > 0.0 ? -place.gap / dt : 0.0;
-        if (!(active.normal.response > 0.0))
-            continue;
-        const double approach = -velocity(s, active.normal);
+        Row normal = row(place.normal);
+        const double approach = -velocity(s, normal);
         if (place.gap > approach * dt + kSlop && contact.impulse == 0.0)
-            continue; // it cannot close in this step
+            continue; // it cannot close in this step: most of those that are found
+        connect(s, normal);
+        if (!(normal.response > 0.0))
+            continue;
+        // A gap may close in this step, and no further.
+        normal.target = place.gap > 0.0 ? -place.gap / dt : 0.0;
         if (!movesA || (!movesB && contact.b >= 0)) {
             const int rests = movesA ? contact.b : contact.a, other = movesA ? contact.a : contact.b;
             const auto r = static_cast<size_t>(rests);
@@ -143,35 +137,59 @@ void BodySolver::prepareContacts(const SolverState& s, double dt) noexcept {
             if (metCount_ == met_.size())
                 --metCount_;
         }
-        active.tangent[0] = row(tangent);
-        active.tangent[1] = row(glm::cross(place.normal, tangent));
-        ++activeCount_;
+        const glm::dvec3 tangent = poseOf(s.states, contact.frame).rotation * contact.tangent;
+        active_[activeCount_++] = {.index = i,
+                                   .normal = normal,
+                                   .tangent = {row(tangent), row(glm::cross(place.normal, tangent))},
+                                   .gap = place.gap};
+        for (Row& slide : active_[activeCount_ - 1].tangent)
+            connect(s, slide);
     }
 }
 
+/// The three rows of a contact, between the same two bodies: their velocities are read and written once. What
+/// does not move has no inverse mass in the rows, so that impulses leave it as it is.
 void BodySolver::solveContact(const SolverState& s, ActiveContact& active) noexcept {
     BodyContact& contact = contacts_[active.index];
+    BodyState nothing;
+    BodyState& a = contact.a >= 0 ? s.states[static_cast<size_t>(contact.a)] : nothing;
+    BodyState& b = contact.b >= 0 ? s.states[static_cast<size_t>(contact.b)] : nothing;
+    glm::dvec3 velocityA = a.velocity, spinA = a.spin, velocityB = b.velocity, spinB = b.spin;
+    const auto speed = [&](const Row& row) {
+        const double ofA = glm::dot(row.linear, velocityA) + glm::dot(row.angularA, spinA);
+        return ofA + (glm::dot(row.angularB, spinB) - glm::dot(row.linear, velocityB));
+    };
+    const auto push = [&](const Row& row, double impulse) {
+        velocityA += (row.inverseA * impulse) * row.linear;
+        spinA += impulse * row.turnA;
+        velocityB -= (row.inverseB * impulse) * row.linear;
+        spinB += impulse * row.turnB;
+    };
     // Friction first, within the cone of the last normal impulse: the normal constraint holds at the end.
     const double friction =
         (contact.slides ? contact.dynamicFriction : contact.staticFriction) * contact.impulse;
     double slide[2];
     for (int t = 0; t < 2; ++t)
-        slide[t] = contact.slide[t] - velocity(s, active.tangent[t]) / active.tangent[t].response;
-    const double size = std::hypot(slide[0], slide[1]);
-    contact.slides = size > friction;
-    if (size > friction) {
-        const double most = contact.dynamicFriction * contact.impulse;
-        slide[0] *= most / size;
-        slide[1] *= most / size;
+        slide[t] = contact.slide[t] - speed(active.tangent[t]) / active.tangent[t].response;
+    const double squared = slide[0] * slide[0] + slide[1] * slide[1];
+    contact.slides = squared > friction * friction;
+    if (contact.slides) {
+        const double share = contact.dynamicFriction * contact.impulse / std::sqrt(squared);
+        slide[0] *= share;
+        slide[1] *= share;
     }
     for (int t = 0; t < 2; ++t) {
-        apply(s, active.tangent[t], slide[t] - contact.slide[t]);
+        push(active.tangent[t], slide[t] - contact.slide[t]);
         contact.slide[t] = slide[t];
     }
-    const double change = (active.normal.target - velocity(s, active.normal)) / active.normal.response;
+    const double change = (active.normal.target - speed(active.normal)) / active.normal.response;
     const double impulse = std::max(0.0, contact.impulse + change);
-    apply(s, active.normal, impulse - contact.impulse);
+    push(active.normal, impulse - contact.impulse);
     contact.impulse = impulse;
+    a.velocity = velocityA;
+    a.spin = spinA;
+    b.velocity = velocityB;
+    b.spin = spinB;
 }
 
 void BodySolver::correctContact(const SolverState& s, const BodyContact& contact) noexcept {
