@@ -122,7 +122,8 @@ class Reader {
         value = json.get<bool>();
     }
     void leaf(const std::string& place, const Json& json, Truth& value) {
-        const auto known = std::find(kTruthNames.begin(), kTruthNames.end(), json);
+        const std::string name = json.is_string() ? json.get<std::string>() : "";
+        const auto known = std::find(kTruthNames.begin(), kTruthNames.end(), name);
         if (known == kTruthNames.end())
             fail(place, "is no truth that is known here");
         value = static_cast<Truth>(known - kTruthNames.begin());
