@@ -6,6 +6,7 @@
 #include "study/result/provenance.h"
 #include "study/timing/clock_cost.h"
 #include "study/timing/configurations.h"
+#include "workbench/commands/bench_fields.h"
 #include "workbench/commands/bench_protocol.h"
 #include "workbench/figures/settings_json.h"
 #include "workbench/options/commands.h"
@@ -393,6 +394,8 @@ int benchCommand(const BenchOptions& options) {
         json["growth"] = benchGrowth(options);
     if (wanted("moving"))
         json["moving"] = benchMoving(options);
+    if (wanted("fields"))
+        json["fields"] = benchFields(options, verdicts.missed);
     if (options.what == "protocol")
         json["protocol"] = benchProtocol(options);
     std::printf("Ticks in contact; reading the clock, %s ns, is part of every time. %s\n",

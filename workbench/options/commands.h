@@ -193,7 +193,7 @@ struct SimplifyOptions {
 };
 int simplifyCommand(const SimplifyOptions& options);
 
-/// touchstone bench [fast|growth]
+/// touchstone bench [WHAT]
 struct BenchOptions {
     std::string what;           ///< empty: all of it
     std::filesystem::path json; ///< empty: not requested

@@ -32,10 +32,11 @@ void defineBench(CLI::App& app, BenchOptions& options) {
     app.add_option(
            "WHAT", options.what,
            "fast: the bounds of a tick in rays; growth: its time over the number of triangles; moving: "
-           "a thousand objects that move, and objects that close on the hand; all of these without it; "
+           "a thousand objects that move, and objects that close on the hand; fields: how long a mesh's "
+           "distance field takes to build; all of these without it; "
            "protocol: the servo rates of [000 Table I] as they were measured, three runs of three minutes")
         ->type_name("")
-        ->check(CLI::IsMember({"fast", "growth", "moving", "protocol"}));
+        ->check(CLI::IsMember({"fast", "growth", "moving", "fields", "protocol"}));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
     app.add_option("--largest", options.largestTriangles,
                    "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")

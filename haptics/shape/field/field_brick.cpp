@@ -1,6 +1,7 @@
 #include "haptics/shape/field/field_brick.h"
 
 #include "engine/core/checksum.h"
+#include "haptics/shape/field/vectors.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,9 +11,7 @@ namespace touchstone {
 
 namespace {
 
-// The compilers' vector extension, as in shape/mesh/triangle_tree: the cells of a row along x.
-using Eight [[gnu::vector_size(32)]] = float;
-static_assert(kBrickCells == 8);
+static_assert(kBrickCells == 8); // the cells of a row along x are one Eight
 
 /// The nodes at both ends of eight edges along x.
 struct Row {
@@ -22,12 +21,6 @@ struct Row {
         std::memcpy(&to, nodes + 1, sizeof to);
     }
 };
-Eight larger(Eight a, Eight b) {
-    return a > b ? a : b;
-}
-Eight smaller(Eight a, Eight b) {
-    return a < b ? a : b;
-}
 Eight difference(Eight a, Eight b) {
     return larger(a - b, b - a);
 }

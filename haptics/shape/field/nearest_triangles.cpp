@@ -1,32 +1,33 @@
 #include "haptics/shape/field/nearest_triangles.h"
 
+#include "haptics/shape/field/vectors.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <numeric>
 
 namespace touchstone {
 
 namespace {
 
-// The compilers' vector extension, as in shape/mesh/triangle_tree: four places to a vector, twice.
-using Four [[gnu::vector_size(32)]] = double;
+// Four places to a vector, twice, for what is told; all eight for the boxes, which only exclude.
 constexpr size_t kHalves = 2;
 
-Four smaller(Four a, Four b) {
-    return a < b ? a : b;
-}
-Four larger(Four a, Four b) {
-    return a > b ? a : b;
-}
 Four within01(Four t) {
     const Four zero{}, one = zero + 1.0;
     return smaller(larger(t, zero), one);
 }
-bool anyLess(Four a, Four b) {
-    const Four less = a - b; // the sign bits of numbers that are finite
-    return __builtin_ia32_movmskpd256(less) != 0;
+/// Half of a float's last place, relative.
+constexpr double kRounding = 0x1p-24;
+glm::vec3 below(const glm::dvec3& p) {
+    const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -INFINITY); };
+    return {down(p.x), down(p.y), down(p.z)};
+}
+glm::vec3 above(const glm::dvec3& p) {
+    return -below(-p);
 }
 
 double perSquareOf(const glm::dvec3& edge) {
@@ -65,11 +66,12 @@ NearestTriangles::NearestTriangles(std::span<const glm::dvec3> vertices, std::sp
 /// their number.
 void NearestTriangles::build(std::span<uint32_t> items, std::span<const glm::dvec3> centres) {
     const size_t own = nodes_.size();
-    nodes_.push_back({glm::dvec3(INFINITY), glm::dvec3(-INFINITY)});
+    nodes_.emplace_back();
     if (items.size() == 1) {
         const Triangle& t = triangles_[items[0]];
         const glm::dvec3 b = t.corner + t.ab, c = t.corner + t.ac;
-        nodes_[own] = {glm::min(glm::min(t.corner, b), c), glm::max(glm::max(t.corner, b), c), 0, items[0]};
+        nodes_[own] = {below(glm::min(glm::min(t.corner, b), c)), above(glm::max(glm::max(t.corner, b), c)),
+                       0, items[0]};
         return;
     }
     glm::dvec3 low(INFINITY), high(-INFINITY);
@@ -85,7 +87,7 @@ void NearestTriangles::build(std::span<uint32_t> items, std::span<const glm::dve
                          return centres[a][axis] < centres[b][axis] ||
                                 (centres[a][axis] == centres[b][axis] && a < b);
                      });
-    const double middle = centres[items[half]][axis];
+    const auto middle = static_cast<float>(centres[items[half]][axis]);
     build(items.first(half), centres);
     const auto right = static_cast<uint32_t>(nodes_.size());
     build(items.subspan(half), centres);
@@ -126,31 +128,51 @@ void NearestTriangles::lower(std::span<const glm::dvec3, kPlaces> places, std::s
         return;
     std::array<Four, kHalves> x, y, z, bound;
     std::memcpy(bound.data(), squared.data(), sizeof bound);
+    Eight nearX, nearY, nearZ, nearBound;
+    double farthest = 0.0; // coordinate
     for (size_t i = 0; i < kPlaces; ++i) {
         x[i / 4][i % 4] = places[i].x;
         y[i / 4][i % 4] = places[i].y;
         z[i / 4][i % 4] = places[i].z;
+        nearX[i] = static_cast<float>(places[i].x);
+        nearY[i] = static_cast<float>(places[i].y);
+        nearZ[i] = static_cast<float>(places[i].z);
+        for (int axis = 0; axis < 3; ++axis)
+            farthest = std::max(farthest, std::abs(places[i][axis]));
     }
+    // A box is no nearer than its distance in floats less s: each of three coordinates is off by a rounding
+    // of the place's. (d + s)² <= d² + s (d² + 1) + s². What floats add to the square is less than eight
+    // roundings.
+    const double s = std::numbers::sqrt3 * kRounding * farthest;
+    const double wider = (1.0 + 16.0 * kRounding) * (1.0 + s), more = 2.0 * s * (1.0 + s);
+    const auto boundBoxes = [&] {
+        using Half [[gnu::vector_size(16)]] = float;
+        for (size_t h = 0; h < kHalves; ++h) {
+            const Half half = __builtin_convertvector(wider * bound[h] + more, Half);
+            std::memcpy(reinterpret_cast<float*>(&nearBound) + 4 * h, &half, sizeof half);
+        }
+    };
+    boundBoxes();
     const auto measure = [&](uint32_t item) {
         const Triangle& t = triangles_[item];
+        bool nearer = false;
         for (size_t h = 0; h < kHalves; ++h) {
             const Four found = squaredDistance(t, x[h] - t.corner.x, y[h] - t.corner.y, z[h] - t.corner.z);
             if (anyLess(found, bound[h])) {
                 bound[h] = smaller(bound[h], found);
                 known = item;
+                nearer = true;
             }
         }
+        if (nearer)
+            boundBoxes();
     };
     const auto reaches = [&](const Node& node) {
-        const Four zero{};
-        bool any = false;
-        for (size_t h = 0; h < kHalves; ++h) {
-            const Four dx = larger(larger(node.low.x - x[h], x[h] - node.high.x), zero),
-                       dy = larger(larger(node.low.y - y[h], y[h] - node.high.y), zero),
-                       dz = larger(larger(node.low.z - z[h], z[h] - node.high.z), zero);
-            any |= anyLess(dx * dx + dy * dy + dz * dz, bound[h]);
-        }
-        return any;
+        const Eight zero{};
+        const Eight dx = larger(larger(node.low.x - nearX, nearX - node.high.x), zero),
+                    dy = larger(larger(node.low.y - nearY, nearY - node.high.y), zero),
+                    dz = larger(larger(node.low.z - nearZ, nearZ - node.high.z), zero);
+        return anyLess(dx * dx + dy * dy + dz * dz, nearBound);
     };
     const uint32_t first = std::min(known, static_cast<uint32_t>(triangles_.size() - 1));
     measure(first);
@@ -166,7 +188,7 @@ void NearestTriangles::lower(std::span<const glm::dvec3, kPlaces> places, std::s
             measure(node.item);
             continue;
         }
-        const bool leftFirst = places[0][static_cast<int>(node.item)] < node.middle;
+        const bool leftFirst = places[0][static_cast<int>(node.item)] < static_cast<double>(node.middle);
         stack[waiting++] = leftFirst ? node.right : at + 1;
         stack[waiting++] = leftFirst ? at + 1 : node.right;
     }

@@ -27,12 +27,12 @@ class NearestTriangles {
     [[nodiscard]] bool empty() const noexcept { return triangles_.empty(); }
 
   private:
-    /// The left child follows its parent.
+    /// The left child follows its parent. The box holds the triangles: its sides are rounded outwards.
     struct Node {
-        glm::dvec3 low, high;
+        glm::vec3 low, high;
         uint32_t right = 0; ///< child; 0 in a leaf
         uint32_t item = 0;  ///< the triangle of a leaf; else the axis along which the children lie
-        double middle = 0.0;
+        float middle = 0.0f;
     };
     /// What a distance needs: a corner, the edges from it, reciprocals of the squared lengths of the three
     /// edges and the inverse of the Gram matrix of the two (0 where they are parallel).

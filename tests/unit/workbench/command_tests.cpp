@@ -624,7 +624,8 @@ TEST(Bench, PrintsEveryFigureBesideItsBound) {
     for (const char* words :
          {"torus 64,800, r = 0.0 mm", "of 6, ", "of 12, ", "1,000 objects take",
           "allocations and frees in ticks: 0, met", "Number of polygons", "| 12 | 456 | 1,800 | 64,800 |",
-          "neighbourhood watch", "1000 moving objects, r = 0.5 mm", "two boxes, r = 0.0 mm"})
+          "neighbourhood watch", "1000 moving objects, r = 0.5 mm", "two boxes, r = 0.0 mm",
+          "| 3328 triangles | ", "| 11858 triangles | "})
         EXPECT_TRUE(contains(result.out, words)) << words;
     EXPECT_FALSE(contains(result.out, "1,000,000")) << "larger than was asked for";
     const auto figures = nlohmann::json::parse(readFile(json));
@@ -645,7 +646,14 @@ TEST(Bench, PrintsEveryFigureBesideItsBound) {
         EXPECT_EQ(configuration.contains("poses_p50_ns"), configuration["name"] != "1000 objects")
             << configuration["name"];
     }
-    expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth", "moving"});
+    ASSERT_EQ(figures["fields"].size(), 2u);
+    for (const auto& field : figures["fields"]) {
+        EXPECT_GT(field["seconds_p50"], 0.0);
+        EXPECT_GT(field["processor_seconds_p50"], 0.0);
+        // As deep as a device pushes, the torus is no hole: more than the band about its surface.
+        EXPECT_GT(field["bytes"], 5'000'000) << field["triangles"];
+    }
+    expectRefused(runProgram({kProgram, "bench", "slow"}), 2, {"fast", "growth", "moving", "fields"});
 }
 
 TEST(Bench, RunsTheProtocolOfTheSeedsTable) {

@@ -1,0 +1,31 @@
+#pragma once
+// Eight floats or four doubles at a time, by the compilers' vector extension, as in shape/mesh/triangle_tree.
+
+namespace touchstone {
+
+using Eight [[gnu::vector_size(32)]] = float;
+using Four [[gnu::vector_size(32)]] = double;
+
+inline Eight smaller(Eight a, Eight b) noexcept {
+    return a < b ? a : b;
+}
+inline Eight larger(Eight a, Eight b) noexcept {
+    return a > b ? a : b;
+}
+inline Four smaller(Four a, Four b) noexcept {
+    return a < b ? a : b;
+}
+inline Four larger(Four a, Four b) noexcept {
+    return a > b ? a : b;
+}
+/// By the sign bits of the differences: of numbers that are finite.
+inline bool anyLess(Eight a, Eight b) noexcept {
+    const Eight less = a - b;
+    return __builtin_ia32_movmskps256(less) != 0;
+}
+inline bool anyLess(Four a, Four b) noexcept {
+    const Four less = a - b;
+    return __builtin_ia32_movmskpd256(less) != 0;
+}
+
+} // namespace touchstone
