@@ -5,9 +5,11 @@
 #include "renderer/gpu_impl.h"
 
 #include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <thread>
 
 namespace touchstone {
@@ -188,6 +190,30 @@ vk::raii::PhysicalDevices physicalDevices(const vk::raii::Instance& instance) {
     }
 }
 
+/// What a software device draws with are threads of this process; on few cores those that compute what is
+/// felt (edits of fields, contacts of bodies, deforming vertices) go before them.
+constexpr int kDrawingNiceness = 3;
+
+/// Calls `open` on a thread of lower priority, which those that the driver starts meanwhile inherit: this one
+/// could not take its own priority back. Rethrows.
+template <class Open>
+void withThreadsBehind(const Open& open) {
+    std::exception_ptr failure;
+    std::thread opening([&] {
+        const int now = ::getpriority(PRIO_PROCESS, 0);
+        if (now < kDrawingNiceness) // if refused, drawing competes with the rest
+            (void)::setpriority(PRIO_PROCESS, 0, kDrawingNiceness);
+        try {
+            open();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    });
+    opening.join();
+    if (failure)
+        std::rethrow_exception(failure);
+}
+
 void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     const vk::raii::PhysicalDevices devices = physicalDevices(gpu.instance);
     std::string wanted = options.device;
@@ -211,15 +237,19 @@ void createDevice(Gpu::Impl& gpu, const GpuOptions& options) {
     std::vector<const char*> extensions;
     if (*gpu.surface)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    const vk::DeviceCreateInfo info{.pNext = &features,
+                                    .queueCreateInfoCount = 1,
+                                    .pQueueCreateInfos = &queue,
+                                    .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data(),
+                                    .pEnabledFeatures = &core};
+    gpu.software = gpu.physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const auto open = [&] { gpu.device = vk::raii::Device(gpu.physical, info); };
     try {
-        gpu.device =
-            vk::raii::Device(gpu.physical, vk::DeviceCreateInfo{.pNext = &features,
-                                                                .queueCreateInfoCount = 1,
-                                                                .pQueueCreateInfos = &queue,
-                                                                .enabledExtensionCount =
-                                                                    static_cast<uint32_t>(extensions.size()),
-                                                                .ppEnabledExtensionNames = extensions.data(),
-                                                                .pEnabledFeatures = &core});
+        if (gpu.software)
+            withThreadsBehind(open);
+        else
+            open();
     } catch (const vk::SystemError& error) {
         throwVulkanError(error, "opening the device");
     }
@@ -237,7 +267,6 @@ void describe(Gpu::Impl& gpu) {
     gpu.memory = gpu.physical.getMemoryProperties();
     gpu.limits = properties.limits;
     gpu.timestampBits = gpu.physical.getQueueFamilyProperties()[gpu.queueFamily].timestampValidBits;
-    gpu.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
     gpu.name = properties.deviceName.data();
     const auto number = [](uint32_t n) { return std::to_string(n); };
     gpu.description = "Vulkan " + number(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +

@@ -4,12 +4,17 @@
 #include "tests/screenshot/golden.h"
 #include "tests/screenshot/renderer_fixture.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
+#include <string>
 
 namespace touchstone::test {
 namespace {
@@ -489,6 +494,35 @@ TEST(NoDriver, ErrorNamesThePackage) {
     GpuOptions unknown;
     unknown.device = "no such card";
     EXPECT_THROW((void)Gpu::headless(unknown), Error);
+}
+
+/// Niceness of each thread of this process, by its number.
+std::map<pid_t, int> nicenesses() {
+    std::map<pid_t, int> found;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+        const auto id = static_cast<pid_t>(std::stol(task.path().filename().string()));
+        errno = 0; // a thread may have ended meanwhile
+        if (const int niceness = getpriority(PRIO_PROCESS, static_cast<id_t>(id)); errno == 0)
+            found[id] = niceness;
+    }
+    return found;
+}
+
+TEST(SoftwareDevice, DrawsBehindWhatIsFelt) {
+    useLavapipe();
+    const std::map<pid_t, int> before = nicenesses();
+    const auto gpu = Gpu::headless({.device = "", .validation = false, .log = nullptr});
+    ASSERT_TRUE(gpu->isSoftware());
+    int started = 0;
+    for (const auto& [thread, niceness] : nicenesses()) {
+        if (const auto known = before.find(thread); known != before.end()) {
+            EXPECT_EQ(niceness, known->second) << "the caller's thread, and those that were there";
+            continue;
+        }
+        ++started;
+        EXPECT_GE(niceness, 3) << thread;
+    }
+    EXPECT_GE(started, 1);
 }
 
 } // namespace
