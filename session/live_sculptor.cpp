@@ -1,7 +1,6 @@
 #include "session/live_sculptor.h"
 
 #include "engine/core/float_mode.h"
-#include "engine/scene/mesh_deformation.h"
 #include "engine/time/seconds_now.h"
 
 #include <algorithm>
@@ -61,9 +60,7 @@ void LiveSculptor::begin(uint32_t number, std::shared_ptr<const HapticScene> sce
     const std::unique_lock applying = stopApplying();
     const std::scoped_lock lock(mutex_);
     sculptor_.reset();
-    // A world that sculpting makes has no thread for soft bodies yet: they would begin anew with each dab, on
-    // the servo's own time.
-    if (scene != nullptr && (source == nullptr || !hasSoftBodies(*source)))
+    if (scene != nullptr)
         sculptor_.emplace(std::move(scene));
     source_ = std::move(source);
     root_ = oldestRoot_ = number;

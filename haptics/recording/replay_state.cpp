@@ -19,9 +19,7 @@ bool Replayer::takeUp(const RecordedTick& tick) {
         return false;
     Touched* const touched = this->touched(tick.scene);
     putDriven(tick, *touched);
-    touched->world.forget();
-    if (std::isfinite(previousTime_))
-        touched->world.advance(previousTime_);
+    touched->world.begin(previousTime_);
     const HapticScene& scene = *touched->scene.haptic;
     const ObjectMotions moved = touched->world.poses();
     const auto edited = edited_.find(rootOf(tick.scene));
@@ -43,12 +41,12 @@ void Replayer::putDriven(const RecordedTick& tick, Touched& touched) const {
         if (static_cast<size_t>(pose.object) >= objects)
             throw Error("recording", "", "moves an object that its scene does not have",
                         "the file is damaged, or its scene is another one now");
-    if (touched.world.driven() == nullptr)
+    if (touched.world.driven() == nullptr) {
+        CarriedOver goesOn = touched.world.carriedOver();
+        goesOn.driven = std::make_shared<DrivenObjects>();
         touched.world = WorldState(touched.scene.source, *touched.scene.haptic, WorldBodies::Simulated,
-                                   {.bodies = touched.world.bodies(),
-                                    .soft = touched.world.soft(),
-                                    .textures = touched.world.textures(),
-                                    .driven = std::make_shared<DrivenObjects>()});
+                                   std::move(goesOn));
+    }
     touched.world.driven()->restore(state->second);
 }
 
@@ -60,6 +58,9 @@ void Replayer::resume(const RecordedTick& tick) {
     otherStates_[0] = *checkpoint_;
     // Without a gap before it, it must equal the state after the preceding ticks.
     const bool goesOn = known_ && scene_ == tick.scene && came == previousTime_;
+    // What moves goes on in an edit of the scene, which shares it (CarriedOver): its state need not be there.
+    const bool edited = known_ && scene_ != 0 && tick.scene != 0 && rootOf(tick.scene) == rootOf(scene_) &&
+                        came == previousTime_;
     devices_.resize(ticks_.size());
     pads_.resize(ticks_.size());
     samples_.resize(ticks_.size());
@@ -93,18 +94,27 @@ void Replayer::resume(const RecordedTick& tick) {
         }))
         scene->buildNeighbourhoods();
     putDriven(tick, *touched);
-    if (!goesOn) {
-        touched->world.forget();
-        if (std::isfinite(came))
-            touched->world.advance(came);
-    }
+    if (!goesOn)
+        touched->world.begin(came);
     if (touched->world.textures() != nullptr && !goesOn)
         known_ &= restoreTextures(tick, *touched->world.textures());
     if (!known_)
         return;
-    // A scene with bodies is known where their state is.
     if ((touched->world.bodies() != nullptr || touched->world.soft() != nullptr) && !(goesOn && change_))
-        known_ = bodies_ && bodies_->tick == tick.tick && touched->world.restoreBodies(bodies_->bytes);
+        known_ = resumeBodies(tick, touched->world, goesOn, edited);
+}
+
+/// A scene with bodies is known where their state is recorded, or was known and went on. What goes on is left
+/// as it is where it equals the recorded state. (Failed: a cloth asleep, restored, is not still for a tick.)
+bool Replayer::resumeBodies(const RecordedTick& tick, WorldState& world, bool goesOn, bool edited) {
+    if (!bodies_ || bodies_->tick != tick.tick)
+        return goesOn || edited;
+    if (goesOn) {
+        if (world.bodyState() == bodies_->bytes)
+            return true;
+        differs({.tick = tick.tick, .time = tick.time, .stage = "state"});
+    }
+    return world.restoreBodies(bodies_->bytes);
 }
 
 /// The state before `tick`: the last whole one and the strokes since. False where that does not fit.

@@ -227,7 +227,7 @@ Replayer::Touched* Replayer::sculpted(uint32_t number) {
     edited->number = number;
     edited->touched.scene = {edited->sculptor.scene(), root->scene.source};
     edited->touched.world = WorldState(root->scene.source, *edited->touched.scene.haptic,
-                                       WorldBodies::Simulated, {.textures = root->world.textures()});
+                                       WorldBodies::Simulated, root->world.carriedOver());
     if (edited->sculptor.hash() != wanted.hash && !change_)
         differs({.stage = "field"});
     return &edited->touched;

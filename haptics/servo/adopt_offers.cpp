@@ -42,15 +42,17 @@ void ServoLoop::adopt(Touch& touch, const Offer* offer) noexcept {
 }
 
 /// True where touch can go on in `next`: its vertices of the preceding tick are published, and in that tick
-/// the hands felt those; or the publisher, who is told where that is, had `longest` ticks. Else the servo or
-/// the thread that offers stood still for longer than is published ahead, or the animation was wound on with
-/// the offer. (Failed: an offer taken up after a tick whose vertices had stood still left the hand beside the
-/// sheet.)
-bool ServoLoop::Touch::canTakeOver(const Offer& next, uint64_t longest) noexcept {
-    const bool goesOn = next.geometry == geometry && std::isfinite(previousTime);
-    if (goesOn && (offer->world.held() || !next.world.reach(previousTime)) && aside++ < longest)
+/// the hands felt those; or the publisher, who is told where that is, had `longest` ticks, of which `waited`
+/// are over. Else the servo or the thread that offers stood still for longer than is published ahead, or the
+/// animation was wound on with the offer. (Failed: an offer taken up after a tick whose vertices had stood
+/// still left the hand beside the sheet.)
+bool ServoLoop::Touch::canTakeOver(const Offer& next, uint64_t longest, uint64_t& waited) const noexcept {
+    const bool sameGeometry = next.geometry == 0 ? next.root == root : next.geometry == geometry;
+    const bool goesOn = sameGeometry && offer != nullptr && std::isfinite(previousTime);
+    if (goesOn && (offer->world.held() || !next.world.reach(previousTime, offer->world)) &&
+        waited++ < longest)
         return false;
-    aside = 0;
+    waited = 0;
     return true;
 }
 
@@ -58,9 +60,7 @@ bool ServoLoop::Touch::canTakeOver(const Offer& next, uint64_t longest) noexcept
 /// not published. The hands would be taken over on vertices of another time, and a replay, which has all
 /// of them, would differ from there on.
 bool ServoLoop::Touch::takeOver(const Offer& next, bool otherPart) noexcept {
-    // As in a replay that resumes here: the objects have their previous poses.
-    if (std::isfinite(previousTime))
-        next.world.advance(previousTime);
+    next.world.begin(previousTime); // as in a replay that resumes here
     if (next.world.held()) {
         next.world.forget();
         return false;
@@ -85,8 +85,9 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     TickRecord& record = touch.record();
     // The scene first: settings that were sent before it was offered are there.
     const auto longestAside = static_cast<uint64_t>(config_.longestAside * config_.rateHz);
-    const Offer* const root = scene_.adopt(
-        [&](const Offer* next) { return next == nullptr || touch.canTakeOver(*next, longestAside); });
+    const Offer* const root = scene_.adopt([&](const Offer* next) {
+        return next == nullptr || touch.canTakeOver(*next, longestAside, touch.aside);
+    });
     settings_.update();
     const NumberedSettings& settings = root != nullptr && root->settings.number > settings_.value().number
                                            ? root->settings
@@ -102,37 +103,44 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     touch.tool = tools_.value().tool.active ? &tools_.value().tool : nullptr;
     const Offer* offer = root;
     record.root = root != nullptr ? root->root : 0;
-    if (const Offer* const edited = edited_.adopt();
-        edited != nullptr && root != nullptr && edited->root == root->root)
+    const Offer* const edited = edited_.adopt(
+        [&](const Offer* next) { return touch.canTakeOver(*next, longestAside, touch.editAside); });
+    if (edited != nullptr && root != nullptr && edited->root == root->root)
         offer = edited;
-    bool due = record.tick >= touch.nextCheckpoint;
+    // An edit leaves the world's state as it is: the hands' alone is kept, and a replay goes on with its own.
+    bool whole = record.tick >= touch.nextCheckpoint || checkpointWanted_.load(std::memory_order_relaxed);
+    bool due = whole;
     if (const uint32_t number = offer != nullptr ? offer->number : 0; number != touch.scene) {
         if (offer != root && record.root != touch.root)
             adopt(touch, root); // its first edit came before its first tick
         adopt(touch, offer);
         if (offer != nullptr && offer->oldestEdit > 0)
             record.editDelay = static_cast<uint32_t>(record.tick - offer->oldestEdit);
+        due = true;
+        whole = whole || offer == root || record.root != touch.root;
         touch.scene = number;
         touch.root = record.root;
-        due = true;
     }
     record.scene = touch.scene;
-    record.checkpoint = due || checkpointWanted_.load(std::memory_order_relaxed);
-    if (record.checkpoint)
-        takeCheckpoints(touch);
+    record.checkpoint = due;
+    if (due)
+        takeCheckpoints(touch, whole);
     if (offer != nullptr && offer->world.driven() != nullptr) [[unlikely]]
         offer->world.driven()->begin(record.tick, record.dt, record.checkpoint);
 }
 
-/// One of every hand, that of hand 0 the last.
-void ServoLoop::takeCheckpoints(Touch& touch) noexcept {
+/// One of every hand, that of hand 0 the last. `whole`: with the state of what moves, so that a replay can
+/// begin here.
+void ServoLoop::takeCheckpoints(Touch& touch, bool whole) noexcept {
     const TickRecord& record = touch.record();
-    checkpointWanted_.store(false, std::memory_order_relaxed);
-    touch.nextCheckpoint =
-        record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
-    if (touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
+    if (whole) {
+        checkpointWanted_.store(false, std::memory_order_relaxed);
+        touch.nextCheckpoint =
+            record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
+    }
+    if (whole && touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
         touch.offer->world.bodies()->keep(record.tick);
-    if (touch.offer != nullptr && touch.offer->world.soft() != nullptr)
+    if (whole && touch.offer != nullptr && touch.offer->world.soft() != nullptr)
         touch.offer->world.soft()->keep(record.tick);
     const size_t count = touch.checkpoints.size();
     for (size_t i = 0; i < count; ++i) {

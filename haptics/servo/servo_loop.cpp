@@ -55,8 +55,8 @@ void ServoLoop::start() {
         return;
     stopping_.store(false, std::memory_order_relaxed);
     findsApart_ = true;
-    if (bodies_ != nullptr)
-        bodies_->setFinding(body::BodyWorld::Finding::Apart);
+    if (newest_.bodies != nullptr)
+        newest_.bodies->setFinding(body::BodyWorld::Finding::Apart);
     scheduled_.store(false, std::memory_order_relaxed);
     if (waiting_ != nullptr)
         waiting_->world.publishAhead(animationTime(offeredSettings_.back().settings, 0.0));

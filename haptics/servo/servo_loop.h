@@ -192,7 +192,7 @@ class ServoLoop {
     [[nodiscard]] const body::BodyPoses* bodyPoses();
     /// Owner thread: the soft bodies of the newest scene, whose publication is for the eye; null: it has
     /// none.
-    [[nodiscard]] SoftStates* soft() const { return soft_.get(); }
+    [[nodiscard]] SoftStates* soft() const { return newest_.soft.get(); }
     /// Any thread: N s, BodyWorld::impact of the newest tick.
     [[nodiscard]] const std::atomic<double>& impact() const { return impact_; }
     /// Owner thread: the newest dents of each hand, for the eye.
@@ -249,9 +249,11 @@ class ServoLoop {
     [[nodiscard]] Offer offerOf(std::shared_ptr<const HapticScene> scene, WorldState world, uint32_t number,
                                 SceneSwap swap);
     void holdTextures(uint32_t number, const WorldState& world);
-    [[nodiscard]] std::shared_ptr<PersistentTextures> newestTextures();
+    void offerWorld(std::shared_ptr<const Offer> offer);
+    void setNewest(const WorldState& world);
+    [[nodiscard]] CarriedOver newest();
     void prepare(Touch& touch) noexcept;
-    void takeCheckpoints(Touch& touch) noexcept;
+    void takeCheckpoints(Touch& touch, bool whole) noexcept;
     const NumberedSettings& number(const HapticSettings& settings);
     void showLocation(Touch& touch, size_t hand, double dt) noexcept;
     void sampleHands(Touch& touch, const TickRecord& record) noexcept;
@@ -281,13 +283,11 @@ class ServoLoop {
     uint32_t offeredGeometry_ = 0, offeredPart_ = 0, offeredLast_ = 0;
     std::shared_ptr<const HapticScene> lastScene_; // of offeredLast_
     std::shared_ptr<const Offer> waiting_;         // the scene that was offered before `start`
-    std::shared_ptr<body::BodyWorld> bodies_; // of the scene offered last; the servo's but for publications
-    std::shared_ptr<SoftStates> soft_;        // of the scene offered last; the servo's but for publications
-    bool findsApart_ = false;                 // the servo has a thread: contacts of bodies are found apart
+    bool findsApart_ = false; // the servo has a thread: contacts of bodies are found apart
     std::deque<std::pair<uint32_t, std::shared_ptr<PersistentTextures>>> textures_; // by scene offered
     std::deque<std::pair<uint32_t, std::shared_ptr<DrivenObjects>>> driven_;        // the same
-    std::mutex newestMutex_;
-    std::shared_ptr<PersistentTextures> newestTextures_; // also of the thread that edits
+    std::mutex newestMutex_; // the owner's writing of newest_, and reading by the thread that edits
+    CarriedOver newest_;     // of the scene offered last; the servo's but for publications
     std::atomic<bool> stopping_{false};
     std::atomic<uint64_t> ticks_{0}, missed_{0}, skipped_{0};
     ServoScheduling scheduling_;

@@ -35,28 +35,30 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
         scene_.offer(nullptr);
         waiting_.reset();
         lastScene_.reset();
-        bodies_ = nullptr;
-        soft_ = nullptr;
+        setNewest({});
         return 0;
     }
     if (swap == SceneSwap::OtherPart && !canTakeUpPart(source.get()))
         swap = SceneSwap::Anew;
-    if (!softGoOn(soft_.get(), source.get(), *scene))
+    if (!softGoOn(newest_.soft.get(), source.get(), *scene))
         swap = SceneSwap::Anew; // one is hidden, or shown again
-    CarriedOver goesOn{.driven = driven};
-    if (swap != SceneSwap::Anew)
-        goesOn = {bodies_, soft_, newestTextures(), driven};
+    CarriedOver goesOn = swap != SceneSwap::Anew ? newest_ : CarriedOver{};
+    goesOn.driven = driven;
     WorldState world(std::move(source), *scene, WorldBodies::Simulated, std::move(goesOn));
-    if (world.bodies() != nullptr && world.bodies() != bodies_ && findsApart_)
+    if (world.bodies() != nullptr && world.bodies() != newest_.bodies && findsApart_)
         world.bodies()->setFinding(body::BodyWorld::Finding::Apart);
-    bodies_ = world.bodies();
-    soft_ = world.soft();
+    setNewest(world);
     const uint32_t number = nextSceneNumber();
     holdTextures(number, world);
     if (driven != nullptr)
         driven_.emplace_back(number, std::move(driven));
     auto offer = std::make_shared<const Offer>(offerOf(std::move(scene), std::move(world), number, swap));
-    // A stepped loop computes the vertices itself, so that it is deterministic.
+    offerWorld(std::move(offer));
+    return number;
+}
+
+/// Owner thread. A stepped loop computes the vertices itself, so that it is deterministic.
+void ServoLoop::offerWorld(std::shared_ptr<const Offer> offer) {
     if (thread_.joinable()) // from two ticks ago: where the vertices are as the servo takes it up
         offer->world.publishAhead(animationTime(
             offeredSettings_.back().settings,
@@ -65,7 +67,6 @@ uint32_t ServoLoop::offerScene(std::shared_ptr<const HapticScene> scene, ScenePt
     else
         waiting_ = offer;
     scene_.offer(std::move(offer));
-    return number;
 }
 
 /// Owner thread: the offer of a scene that is its own root.
@@ -95,37 +96,41 @@ ServoLoop::Offer ServoLoop::offerOf(std::shared_ptr<const HapticScene> scene, Wo
 void ServoLoop::offerSculpted(ReshapedScene scene, SceneSwap swap) {
     if (swap == SceneSwap::OtherPart && !canTakeUpPart(scene.source.get()))
         swap = SceneSwap::Anew;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
-                     {.bodies = bodies_, .textures = newestTextures()});
+    if (!softGoOn(newest_.soft.get(), scene.source.get(), *scene.scene))
+        swap = SceneSwap::Anew;
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, newest_);
+    setNewest(world);
     holdTextures(scene.root, world);
+    if (newest_.driven != nullptr)
+        driven_.emplace_back(scene.root, newest_.driven);
     Offer offer = offerOf(std::move(scene.scene), std::move(world), scene.number, swap);
     offeredLast_ = offer.root = scene.root;
     offer.reshaped = std::move(scene.reshaped);
-    scene_.offer(std::make_shared<const Offer>(std::move(offer)));
+    offerWorld(std::make_shared<const Offer>(std::move(offer)));
 }
 
 void ServoLoop::offerEdited(ReshapedScene scene) {
-    // Read where there are bodies alone: another thread may offer edits.
-    const bool moves = scene.source != nullptr && scene.source->physics != nullptr;
-    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated,
-                     {.bodies = moves ? bodies_ : nullptr, .textures = newestTextures()});
+    WorldState world(std::move(scene.source), *scene.scene, WorldBodies::Simulated, newest());
     edited_.offer(std::make_shared<const Offer>(std::move(scene.scene), std::move(world), scene.number, 0u,
                                                 scene.root, std::move(scene.reshaped), scene.oldestEdit));
 }
 
-/// The strokes of a scene's textures, which a world is about to give to the servo, can be popped.
-void ServoLoop::holdTextures(uint32_t number, const WorldState& world) {
+void ServoLoop::setNewest(const WorldState& world) {
     const std::lock_guard lock(newestMutex_);
-    newestTextures_ = world.textures();
-    if (newestTextures_ == nullptr)
-        return;
-    newestTextures_->keepStrokes();
-    textures_.emplace_back(number, newestTextures_);
+    newest_ = world.carriedOver();
 }
 
-std::shared_ptr<PersistentTextures> ServoLoop::newestTextures() {
+CarriedOver ServoLoop::newest() {
     const std::lock_guard lock(newestMutex_);
-    return newestTextures_;
+    return newest_;
+}
+
+/// The strokes of a scene's textures, which a world is about to give to the servo, can be popped.
+void ServoLoop::holdTextures(uint32_t number, const WorldState& world) {
+    if (world.textures() == nullptr)
+        return;
+    world.textures()->keepStrokes();
+    textures_.emplace_back(number, world.textures());
 }
 
 std::shared_ptr<PersistentTextures> ServoLoop::texturesOf(uint32_t scene) const {
@@ -185,16 +190,16 @@ bool ServoLoop::popRecord(TickRecord& record) {
 }
 
 bool ServoLoop::popBodyState(uint64_t& tick, std::vector<std::byte>& bytes) {
-    if (soft_ != nullptr)
-        return soft_->takeKept(tick, bytes);
-    return bodies_ != nullptr && bodies_->takeKept(tick, bytes);
+    if (newest_.soft != nullptr)
+        return newest_.soft->takeKept(tick, bytes);
+    return newest_.bodies != nullptr && newest_.bodies->takeKept(tick, bytes);
 }
 
 const body::BodyPoses* ServoLoop::bodyPoses() {
-    if (bodies_ == nullptr)
+    if (newest_.bodies == nullptr)
         return nullptr;
-    bodies_->publication()->update();
-    return &bodies_->publication()->value();
+    newest_.bodies->publication()->update();
+    return &newest_.bodies->publication()->value();
 }
 
 } // namespace touchstone

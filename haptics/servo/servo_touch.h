@@ -54,8 +54,8 @@ struct ServoLoop::Touch {
     }
 
     /// Offers of equal geometry (adopt_offers.cpp).
-    [[nodiscard]] bool canTakeOver(const Offer& next, uint64_t longest) noexcept;
-    uint64_t aside = 0; // ticks for which the next offer has waited
+    [[nodiscard]] bool canTakeOver(const Offer& next, uint64_t longest, uint64_t& waited) const noexcept;
+    uint64_t aside = 0, editAside = 0; // ticks for which the next offer, and the next edit, have waited
     [[nodiscard]] bool takeOver(const Offer& next, bool otherPart) noexcept;
 
     /// The command without contact: the force that the device still holds goes to zero within its limits.

@@ -59,7 +59,7 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies b
     : scene_(std::move(source)), animation_(scene_ != nullptr ? playedAnimation(*scene_) : nullptr),
       workspaceFromScene_(haptic.workspaceFromScene), driven_(std::move(goesOn.driven)) {
     if (animation_ != nullptr)
-        findMovers(haptic);
+        findMovers(haptic, std::move(goesOn.deforming));
     if (driven_ != nullptr)
         motions_ = haptic.restMotions;
     if (bodies == WorldBodies::Simulated)
@@ -94,7 +94,7 @@ WorldState::WorldState(ScenePtr source, const HapticScene& haptic, WorldBodies b
 }
 
 /// Objects that the animation moves.
-void WorldState::findMovers(const HapticScene& haptic) {
+void WorldState::findMovers(const HapticScene& haptic, std::shared_ptr<DeformingStates> deforming) {
     const std::vector<bool> moved = movedNodes(*scene_, *animation_);
     for (size_t k = 0; k < haptic.objects.size(); ++k) {
         if (haptic.objects[k]->instance < 0)
@@ -107,7 +107,7 @@ void WorldState::findMovers(const HapticScene& haptic) {
             continue;
         movers_.push_back({k, instance, glm::inverse(objectFromMesh)});
     }
-    deforming_ = DeformingObjects::of(scene_, haptic);
+    deforming_ = DeformingObjects::of(scene_, haptic, std::move(deforming));
     if (!movers_.empty() || deforming_ != nullptr)
         motions_ = haptic.restMotions;
     if (movers_.empty())
@@ -128,9 +128,8 @@ void WorldState::findMovers(const HapticScene& haptic) {
         movers_[m].jumps = !meet(first[m], last[m]);
 }
 
-ObjectMotions WorldState::advance(double time, bool hold) noexcept {
-    if (!moving())
-        return poses_;
+/// All but the rigid bodies.
+void WorldState::moveObjects(double time, bool hold) noexcept {
     if (deforming_ != nullptr) [[unlikely]]
         for (ObjectMotion& motion : motions_)
             motion.jumped = false; // also of objects that deform and do not move
@@ -142,10 +141,27 @@ ObjectMotions WorldState::advance(double time, bool hold) noexcept {
         deforming_->advance(time, !sampled_, hold, motions_);
     if (soft_ != nullptr) [[unlikely]]
         advanceSoft(hold);
+}
+
+ObjectMotions WorldState::advance(double time, bool hold) noexcept {
+    if (!moving())
+        return poses_;
+    moveObjects(time, hold);
     if (bodies_ != nullptr)
         advanceBodies(time);
     sampled_ = true;
     return poses_ = motions_;
+}
+
+void WorldState::begin(double time) noexcept {
+    forget();
+    if (!moving() || !std::isfinite(time))
+        return;
+    moveObjects(time, false);
+    if (bodies_ != nullptr)
+        bodies_->showPublished(motions_);
+    sampled_ = true;
+    poses_ = motions_;
 }
 
 void WorldState::movePoses(double time) noexcept {
@@ -232,6 +248,14 @@ std::vector<std::byte> WorldState::bodyState() const {
     return bytes;
 }
 
+CarriedOver WorldState::carriedOver() const {
+    return {.bodies = bodies_,
+            .deforming = deforming_ != nullptr ? deforming_->states() : nullptr,
+            .soft = softStates_,
+            .textures = textures_,
+            .driven = driven_};
+}
+
 void WorldState::applyStrokes() noexcept {
     textures_->applyQueued();
 }
@@ -277,7 +301,7 @@ uint32_t WorldState::poseHash() const noexcept {
         return 0;
     Hash64 hash;
     if (deforming_ != nullptr)
-        deforming_->addTo(hash);
+        deforming_->states()->addTo(hash);
     if (soft_ != nullptr)
         softStates_->addTo(hash);
     for (const Mover& mover : movers_) {

@@ -46,6 +46,7 @@ enum class WorldBodies : uint8_t { Simulated, Shown };
 /// What a world of equal geometry leaves to another one, which goes on with it. Each may be null.
 struct CarriedOver {
     std::shared_ptr<body::BodyWorld> bodies{};
+    std::shared_ptr<DeformingStates> deforming{};   ///< where the deforming objects are the same
     std::shared_ptr<SoftStates> soft{};             ///< where the soft bodies are the same
     std::shared_ptr<PersistentTextures> textures{}; ///< where they fit
     std::shared_ptr<DrivenObjects> driven{};        ///< objects that a caller moves besides (drivenProblem)
@@ -77,6 +78,10 @@ class WorldState {
     /// the animation restarts at another pose than its last, the object has `jumped`. Returns `poses`.
     /// `hold`: deforming objects stand still, as they did where a tick has TickFlag::DeformationHeld.
     ObjectMotions advance(double time, bool hold = false) noexcept;
+    /// Before the first `advance` of a world that goes on with what another one has left, or with a recorded
+    /// state: the objects have their poses of the preceding tick, which was at `time` (NaN: there was none),
+    /// and nothing moves on.
+    void begin(double time) noexcept;
     /// `scene`, from which the world was made, or its copy with the vertices of this tick where some deform:
     /// what all queries of this tick read.
     [[nodiscard]] const HapticScene& touched(const HapticScene& scene) const noexcept {
@@ -84,20 +89,22 @@ class WorldState {
     }
     /// The deforming objects stand still in this tick, for want of a publication.
     [[nodiscard]] bool held() const noexcept {
-        return (deforming_ != nullptr && deforming_->held()) || (soft_ != nullptr && softHeld());
+        return (deforming_ != nullptr && deforming_->states()->held()) || (soft_ != nullptr && softHeld());
     }
     /// Off the servo, before it gets the world: another thread evaluates vertices ahead of `advance`, which
     /// is about to be called with `time`. For real time only.
     void publishAhead(double time) const {
         if (deforming_ != nullptr)
-            deforming_->publishAhead(time);
+            deforming_->states()->publishAhead(time);
         if (soft_ != nullptr)
             stepSoftApart();
     }
-    /// Before the first `advance`: true where the deforming objects have their vertices of `time`; whoever
-    /// publishes them is told that they are wanted.
-    [[nodiscard]] bool reach(double time) const noexcept {
-        return deforming_ == nullptr || deforming_->reach(time);
+    /// Before `begin`: true where the deforming objects have their vertices of `time`, which are those of
+    /// `from` or are published; whoever publishes them is told that they are wanted.
+    [[nodiscard]] bool reach(double time, const WorldState& from) const noexcept {
+        return deforming_ == nullptr ||
+               (from.deforming_ != nullptr && from.deforming_->states() == deforming_->states()) ||
+               deforming_->reach(time);
     }
     /// Poses of this tick and of the preceding one; empty: every object is at rest where HapticScene placed
     /// it.
@@ -151,6 +158,8 @@ class WorldState {
     }
     /// Of the scene's objects; null where none has one.
     [[nodiscard]] const std::shared_ptr<PersistentTextures>& textures() const noexcept { return textures_; }
+    /// What a world of equal geometry may go on with.
+    [[nodiscard]] CarriedOver carriedOver() const;
     /// Null where no caller moves objects.
     [[nodiscard]] const std::shared_ptr<DrivenObjects>& driven() const noexcept { return driven_; }
     /// Those of another world, of the same scene, which this one then reads and changes.
@@ -182,7 +191,8 @@ class WorldState {
     void stepSoftApart() const;
     [[nodiscard]] bool softHeld() const noexcept;
     void applyStrokes() noexcept;
-    void findMovers(const HapticScene& haptic);
+    void findMovers(const HapticScene& haptic, std::shared_ptr<DeformingStates> deforming);
+    void moveObjects(double time, bool hold) noexcept;
     void movePoses(double time) noexcept;
     void advanceBodies(double time) noexcept;
 

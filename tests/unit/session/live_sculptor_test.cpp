@@ -1,8 +1,6 @@
 // A hand that sculpts while it touches: what it feels, what is recorded, and what is left of the field.
 
-#include "session/device_port.h"
-#include "session/session.h"
-#include "tests/support/recorded_servo.h"
+#include "tests/unit/session/sculpting_hand.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +13,6 @@
 
 namespace touchstone::test {
 namespace {
-
-constexpr double kRadius = 0.004; // m, of the tool
 
 size_t fieldIn(const HapticScene& scene) {
     for (size_t k = 0; k < scene.objects.size(); ++k)
@@ -46,57 +42,6 @@ glm::dvec3 topOf(const HapticScene& scene, size_t object) {
     return best;
 }
 
-/// Goes to and fro over a place, a millimetre and a half deep.
-class RubbingDevice final : public Device {
-  public:
-    explicit RubbingDevice(const glm::dvec3& place) : place_(place) {}
-    [[nodiscard]] std::string name() const override { return "rubbing"; }
-    [[nodiscard]] DeviceLimits limits() const override { return {}; }
-    [[nodiscard]] DeviceSample sample(double time) noexcept override {
-        const double depth = 0.0015 - 0.01 * std::exp(-20.0 * time);
-        DeviceSample made =
-            at(place_ + glm::dvec3(0.006 * std::sin(9.0 * time), -depth, 0.006 * std::cos(7.0 * time)));
-        made.buttons = time > 0.25 ? kSculptButton : 0;
-        return made;
-    }
-    void apply(const DeviceCommand&) noexcept override {}
-
-  private:
-    glm::dvec3 place_;
-};
-
-/// Records a session, and keeps what was sculpted.
-struct Recording final : TickSubscriber {
-    explicit Recording(Session& session) : recorder(session.servo()) {}
-    void sceneOffered(const OfferedScene& scene) override {
-        recorder.sceneOffered(scene.number, scene.identity);
-    }
-    void sceneSculpted(const SculptedScene& scene) override {
-        recorder.sceneSculpted(scene.number, scene.root, scene.hash, scene.entries);
-        if (scene.root != root)
-            entries.clear();
-        root = scene.root;
-        entries.insert(entries.end(), scene.entries.begin(), scene.entries.end());
-        last = scene;
-        ++published;
-    }
-    void take(const TickRecord& record, const HapticSettings&) override {
-        recorder.take(record);
-        edited += record.editDelay > 0 ? 1 : 0;
-        force = std::max(force, glm::length(record.output.command.force()));
-        contacts += record.output.contacts > 0 ? 1 : 0;
-        resisted = std::max(resisted, record.output.contacts == 0 ? glm::length(record.output.force) : 0.0);
-    }
-    void flush(double) override { recorder.flush(); }
-
-    ServoRecorder recorder;
-    std::vector<SculptEntry> entries;
-    SculptedScene last;
-    uint32_t root = 0;
-    size_t published = 0, edited = 0, contacts = 0;
-    double force = 0.0, resisted = 0.0;
-};
-
 class LiveSculptorTest : public testing::Test {
   protected:
     LiveSculptorTest() { recording_.recorder.start(file_, "test"); }
@@ -107,18 +52,10 @@ class LiveSculptorTest : public testing::Test {
     }
     void sculptFor(double seconds, SculptTool tool) {
         LiveTool live{
-            .active = true, .tool = tool, .object = static_cast<int32_t>(object_), .radius = kRadius};
+            .active = true, .tool = tool, .object = static_cast<int32_t>(object_), .radius = kToolRadius};
         live.stamp = live.object;
-        session_.sculptor().setTool(live);
-        session_.start();
-        const uint64_t goal = session_.servo().counters().ticks + static_cast<uint64_t>(4000.0 * seconds);
-        while (session_.servo().counters().ticks < goal) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            session_.pump(0.0);
-        }
-        session_.stop();
-        session_.sculptor().drain();
-        session_.pump(0.0);
+        sculptTicks(session_, live, static_cast<uint64_t>(4000.0 * seconds));
+        endSculpting(session_);
     }
     [[nodiscard]] uint64_t hashOf(const std::vector<SculptEntry>& entries) const {
         SceneSculptor again(scene_.haptic);

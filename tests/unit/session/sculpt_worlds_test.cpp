@@ -1,0 +1,148 @@
+// A hand sculpts in scenes that have more state than the hand's and the field's: bodies, deforming and soft
+// meshes. None of it begins anew with a dab, and all of it replays.
+
+#include "engine/load/scene_loader.h"
+#include "haptics/settings/tick_flags.h"
+#include "haptics/texture/persistent_textures.h"
+#include "haptics/world/soft_states.h"
+#include "tests/support/program.h"
+#include "tests/support/test_shapes.h"
+#include "tests/unit/body/body_maker.h"
+#include "tests/unit/deforming/deforming_bench.h"
+#include "tests/unit/session/sculpting_hand.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace touchstone::test {
+namespace {
+
+constexpr double kSide = 0.04, kVoxel = 0.001; // m, of the clay
+const glm::dvec3 kClay(-0.3, 0.0, 0.0);        // its middle, beside everything else
+
+/// The scene and a cube of clay, in its frame: a field.
+TouchedScene withClay(const Scene& scene, const std::string& name) {
+    auto source = std::make_shared<Scene>(scene);
+    source->path = name;
+    Material& clay = source->materials.emplace_back();
+    clay.haptic.implicit = true;
+    clay.haptic.voxelSize = static_cast<float>(kVoxel);
+    BodyMaker maker;
+    (void)maker.surface(0.4, 0.2);
+    (void)addCube(maker, "clay", {}, kSide, 0.0);
+    const ScenePtr cube = maker.scene();
+    Mesh& mesh = source->meshes.emplace_back(cube->meshes[static_cast<size_t>(cube->instances[1].mesh)]);
+    mesh.material = static_cast<int>(source->materials.size()) - 1;
+    for (glm::vec3& p : mesh.positions) {
+        p += glm::vec3(kClay);
+        source->bounds.include(glm::dvec3(p));
+    }
+    source->nodes.emplace_back();
+    source->instances.push_back({.node = static_cast<int>(source->nodes.size()) - 1,
+                                 .mesh = static_cast<int>(source->meshes.size()) - 1});
+    TouchedScene made;
+    made.haptic = compileHapticScene(*source, Similarity{});
+    made.source = std::move(source);
+    made.identity = identify(*made.haptic, *made.source, Fit::None);
+    return made;
+}
+
+/// A stack of three blocks that fall over one another, for longer than the hand sculpts.
+TouchedScene besideBodies() {
+    BodyMaker maker;
+    (void)maker.surface(0.4, 0.2);
+    (void)addCube(maker, "table", {0.0, -0.05, 0.0}, 0.1, 0.0);
+    for (int i = 0; i < 3; ++i)
+        (void)addCube(maker, "block", {0.012 * i, 0.05 + 0.1 * i, 0.0}, 0.04, 0.1);
+    return withClay(*maker.scene(), "bodies");
+}
+
+/// A sheet that a morph target moves up and down.
+TouchedScene besideASheet() {
+    MorphCase made;
+    for (const double x : {-0.05, 0.05})
+        for (const double z : {-0.05, 0.05})
+            made.positions.emplace_back(static_cast<float>(x), 0.0f, static_cast<float>(z));
+    made.indices = {0, 1, 2, 1, 3, 2};
+    made.targets.assign(1, std::vector<glm::vec3>(4, {0.0f, 0.001f, 0.0f}));
+    made.times = {0.0f, 0.5f, 1.0f};
+    made.weights = {0.0f, 1.0f, 0.0f};
+    return withClay(sceneOfMorph(made), "sheet");
+}
+
+TouchedScene besideFile(const std::string& file) {
+    return withClay(*loadScene(std::filesystem::path(TOUCHSTONE_ASSETS) / file), file);
+}
+
+struct World {
+    std::string name;
+    std::function<TouchedScene()> scene;
+};
+
+class SculptWorlds : public testing::TestWithParam<World> {
+  protected:
+    SculptWorlds() {
+        session_.subscribe(recording_);
+        recording_.recorder.start(file_, "test");
+    }
+    void sculpt(const TouchedScene& scene, SculptTool tool, uint64_t ticks) {
+        sculptTicks(session_,
+                    {.active = true,
+                     .tool = tool,
+                     .object = static_cast<int32_t>(scene.haptic->objects.size() - 1),
+                     .radius = kToolRadius},
+                    ticks);
+    }
+    /// What moves besides the hand: bodies' and soft bodies' places.
+    [[nodiscard]] std::vector<double> heights() {
+        std::vector<double> heights;
+        if (const body::BodyPoses* poses = session_.servo().bodyPoses())
+            for (const body::Pose& pose : poses->workspaceFromBody)
+                heights.push_back(pose.position.y);
+        return heights;
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path file_ = scratch_ / "r.tsrec";
+    RubbingDevice device_{kClay + glm::dvec3(0.0, 0.5 * kSide, 0.0)};
+    Session session_{{portOf(device_)}, RecordedServo::kQuick};
+    Recording recording_{session_};
+};
+
+TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
+    const TouchedScene scene = GetParam().scene();
+    (void)session_.touch(scene.haptic, scene.source, scene.identity);
+    const SoftStates* const soft = session_.servo().soft();
+    const std::vector<double> before = heights();
+    for (const SculptTool tool : {SculptTool::Carve, SculptTool::Add, SculptTool::Smooth})
+        sculpt(scene, tool, 4000);
+    endSculpting(session_);
+    const SculptFigures figures = session_.sculptor().figures();
+    EXPECT_TRUE(figures.problem.empty()) << figures.problem;
+    EXPECT_GT(figures.dabs, 20u);
+    EXPECT_GT(recording_.edited, 10u) << "the servo took the scenes up while it ran";
+    EXPECT_GT(recording_.contacts, 300u);
+    EXPECT_EQ(session_.servo().soft(), soft) << "the soft bodies began anew";
+    const std::vector<double> after = heights();
+    for (size_t b = 0; b < before.size(); ++b)
+        EXPECT_LT(after[b], before[b] - 0.005) << "body " << b << " falls";
+    recording_.recorder.finish();
+    const ReplayReport report = replayOf(file_, {scene});
+    expectEqualReplay(report);
+    EXPECT_EQ(report.ticks, session_.servo().counters().ticks);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SculptWorlds,
+                         testing::Values(World{"Bodies", besideBodies}, World{"DeformingSheet", besideASheet},
+                                         World{"Cloth", [] { return besideFile("cloth.glb"); }},
+                                         World{"Jelly", [] { return besideFile("jelly.glb"); }}),
+                         [](const auto& world) { return world.param.name; });
+
+} // namespace
+} // namespace touchstone::test
