@@ -26,6 +26,7 @@
 #include "workbench/model/dented_meshes.h"
 #include "workbench/model/environment_light.h"
 #include "workbench/model/model.h"
+#include "workbench/model/shown_soft_bodies.h"
 #include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
 #include "workbench/options/gpu_options.h"
@@ -141,6 +142,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
     Overlay overlay;
     WorldState shown(model.scene, *model.haptic, WorldBodies::Shown);
     ShownTextures textures;
+    ShownSoftBodies shownSoft;
     DentedMeshes dented;
     HapticSettings settings = options.settings;
     body::JointSettings controls;
@@ -161,7 +163,7 @@ Frames drawFrames(const RunOptions& options, const Model& model, Session& sessio
             poseAt(animationTime(settings, tick.time), *model.scene, renderer);
         }
         if (SoftStates* const soft = session.servo().soft())
-            poseSoft(*soft, *model.scene, *model.haptic, renderer);
+            shownSoft.show(*soft, *model.scene, *model.haptic, renderer);
         textures.show(*model.haptic, recorder.textures(), renderer);
         dented.show(session.servo().dents(), *model.scene, *model.haptic, renderer);
         const glm::ivec2 size = resolution.sceneSize(options.size);

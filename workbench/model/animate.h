@@ -2,7 +2,6 @@
 
 #include "engine/scene/scene.h"
 #include "haptics/world/driven_objects.h"
-#include "haptics/world/soft_states.h"
 #include "haptics/world/world_state.h"
 #include "renderer/scene_renderer.h"
 
@@ -19,8 +18,5 @@ void poseMoved(double time, const Scene& scene, const HapticScene& haptic, std::
 /// The same as poseAt where bodies move: they are at `poses`, in `world`, which shows them
 /// (WorldBodies::Shown).
 void poseBodies(const body::BodyPoses& poses, double time, WorldState& world, SceneRenderer& renderer);
-
-/// The vertices of the soft bodies where they are now. `soft` is that of `haptic`, made of `scene`.
-void poseSoft(SoftStates& soft, const Scene& scene, const HapticScene& haptic, SceneRenderer& renderer);
 
 } // namespace touchstone

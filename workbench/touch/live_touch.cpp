@@ -139,7 +139,7 @@ void LiveTouch::pose(double time, SceneRenderer& renderer, std::span<const body:
     } else
         poseAt(time, *shown_.model.scene, renderer);
     if (SoftStates* const soft = session_.servo().soft())
-        poseSoft(*soft, *shown_.model.scene, *shown_.model.haptic, renderer);
+        soft_.show(*soft, *shown_.model.scene, *shown_.model.haptic, renderer);
     textures_.show(*shown_.model.haptic, controller_.recorder().textures(), renderer);
     dented_.show(session_.servo().dents(), *shown_.model.scene, *shown_.model.haptic, renderer);
 }

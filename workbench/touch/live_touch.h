@@ -15,6 +15,7 @@
 #include "workbench/model/dented_meshes.h"
 #include "workbench/model/felt_part.h"
 #include "workbench/model/model_loader.h"
+#include "workbench/model/shown_soft_bodies.h"
 #include "workbench/model/shown_textures.h"
 #include "workbench/options/commands.h"
 #include "workbench/readings/failing_program.h"
@@ -140,6 +141,7 @@ class LiveTouch {
     BackgroundBuild build_;
     Picker picker_;
     ShownTextures textures_;
+    ShownSoftBodies soft_;
     DentedMeshes dented_;
     body::JointSettings controls_;
     SculptController sculpt_{session_, picker_};
