@@ -13,6 +13,10 @@
 
 namespace touchstone {
 
+/// m: no stroke is laid on a part so small that it would be less deep. (A part of 1e-26 m took two minutes:
+/// no step of a walk along its path moved on in time.)
+inline constexpr double kLeastDepth = 1e-6;
+
 /// A hand hovers over `point` and presses it against `normal`.
 struct PressPlace {
     glm::dvec3 point{0.0};  ///< m, on the surface

@@ -54,14 +54,15 @@ class Movement {
     [[nodiscard]] Similarity of(size_t instance) const {
         return motionOf(deviceFromScene_, pose_.sceneFromMesh()[instance], rest_[instance]);
     }
-    std::shared_ptr<const PartMotion> over(size_t instance) {
+    std::shared_ptr<const PathMotion> over(size_t instance) {
         const double steps = std::clamp(std::ceil(animation_.duration / kSampleTime), 1.0, kMaxSamples);
         std::vector<Similarity> samples;
         for (double i = 0.0; i <= steps; i += 1.0) {
             evaluate(animation_.duration * i / steps);
             samples.push_back(of(instance));
         }
-        return std::make_shared<const PartMotion>(std::move(samples), animation_.duration);
+        return std::make_shared<const PathMotion>(
+            std::vector{PartMotion(std::move(samples), animation_.duration)});
     }
 
   private:
@@ -93,21 +94,39 @@ std::vector<Bounds> boxesOf(const TriangleSource& triangles, size_t instances) {
     return boxes;
 }
 
+using DeformingParts = std::vector<std::shared_ptr<const DeformingPart>>; ///< by instance; null: it is rigid
+
+DeformingParts deformingParts(const Scene& scene, const Animation& animation,
+                              const Similarity& deviceFromScene) {
+    const std::vector<bool> moved = movedNodes(scene, animation);
+    DeformingParts parts;
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshDeformation* const deformation =
+            scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].deformation.get();
+        parts.push_back(deformation != nullptr && deformation->drivenBy(animation, moved)
+                            ? std::make_shared<const DeformingPart>(scene, animation, i, deviceFromScene)
+                            : nullptr);
+    }
+    return parts;
+}
+
 /// `first` is one of the part's instances.
 std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const Bounds> boxes,
-                            const MovingPart& part, size_t first) {
+                            const DeformingParts& deforming, const MovingPart& part, size_t first) {
     const size_t count = boxes.size();
     const size_t poses = std::clamp<size_t>(200000 / std::max<size_t>(count, 1), 16, kBoxes);
     std::vector<Bounds> swept(count);
     std::vector<Similarity> before(count);
     for (size_t k = 0; k <= poses; ++k) {
         movement.evaluate(duration * static_cast<double>(k) / static_cast<double>(poses));
-        const Similarity carrier = movement.of(first);
+        // A path on a part that deforms is checked where the animation has it.
+        const Similarity carrier = part.deforming != nullptr ? Similarity{} : movement.of(first);
         for (size_t i = 0; i < count; ++i) {
             if (part.instances[i] || boxes[i].empty())
                 continue;
-            const Similarity now = carrier.inverseTimes(movement.of(i));
-            sweep(swept[i], boxes[i], k == 0 ? now : before[i], now);
+            const bool deforms = deforming[i] != nullptr;
+            const Similarity now = deforms ? carrier.inverse() : carrier.inverseTimes(movement.of(i));
+            sweep(swept[i], deforms ? deforming[i]->swept() : boxes[i], k == 0 ? now : before[i], now);
             before[i] = now;
         }
     }
@@ -150,11 +169,16 @@ std::vector<MovingPart> movingParts(const Scene& scene, const Similarity& device
     if (animation == nullptr)
         return {};
     const std::vector<int> movers = moversOf(scene, *animation);
-    std::map<int, std::vector<size_t>> byMover; // instances under the same moved node move as one
+    const DeformingParts deforming = deformingParts(scene, *animation, deviceFromScene);
+    // Instances under the same moved node move as one; one that deforms is a part of its own.
+    std::map<int, std::vector<size_t>> byMover;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const bool follows = instance.followsNode && instance.node >= 0;
-        byMover[follows ? movers[static_cast<size_t>(instance.node)] : -1].push_back(i);
+        byMover[deforming[i] != nullptr ? -2 - static_cast<int>(i)
+                : follows               ? movers[static_cast<size_t>(instance.node)]
+                                        : -1]
+            .push_back(i);
     }
     if (byMover.empty() || (byMover.size() == 1 && byMover.begin()->first == -1))
         return {};
@@ -179,9 +203,10 @@ std::vector<MovingPart> movingParts(const Scene& scene, const Similarity& device
         for (const size_t i : byMover[mover])
             part.instances[i] = true;
         const size_t first = byMover[mover].front();
+        part.deforming = deforming[first];
         if (mover >= 0)
             part.motion = movement.over(first);
-        part.keepOut = keptOut(movement, animation->duration, boxes, part, first);
+        part.keepOut = keptOut(movement, animation->duration, boxes, deforming, part, first);
     }
     return parts;
 }

@@ -22,16 +22,17 @@ struct Crossings {
     std::array<uint32_t, 3> count{};
 };
 
-bool crosses(const SurfaceTriangle& t, const glm::dvec3& point, const glm::dvec3& direction) {
+/// Where the line from `point` meets the triangle, in lengths of `direction`; NaN: nowhere.
+double wayTo(const SurfaceTriangle& t, const glm::dvec3& point, const glm::dvec3& direction) {
     const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, across = glm::cross(direction, ac);
     const double volume = glm::dot(ab, across);
     if (volume == 0.0)
-        return false;
+        return NAN;
     const glm::dvec3 from = point - t.a;
     const double u = glm::dot(from, across) / volume;
     const glm::dvec3 turned = glm::cross(from, ab);
     const double v = glm::dot(direction, turned) / volume;
-    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && glm::dot(ac, turned) / volume > 0.0;
+    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? glm::dot(ac, turned) / volume : NAN;
 }
 
 } // namespace
@@ -109,6 +110,15 @@ bool strokeHolds(const TriangleSource& triangles, const StrokePath& path, double
     return !walk.nextFault() && walk.pressed();
 }
 
+bool isFree(const NearTriangles& triangles, const glm::dvec3& from, const glm::dvec3& to) {
+    bool free = true;
+    triangles.along(from, to, [&](const SurfaceTriangle& t) {
+        const double way = wayTo(t, from, to - from);
+        free = free && !(way > 0.0 && way < 1.0);
+    });
+    return free;
+}
+
 bool maybeInside(const TriangleSource& triangles, const glm::dvec3& point, const glm::dvec3& out) {
     // Oblique directions, so that no ray runs along the axis-aligned faces and edges that models often have.
     const std::array<glm::dvec3, 3> ways{out + glm::dvec3(1.1e-3, 2.3e-3, -1.7e-3),
@@ -118,7 +128,7 @@ bool maybeInside(const TriangleSource& triangles, const glm::dvec3& point, const
     std::array<bool, 3> free{true, true, true};
     triangles([&](const SurfaceTriangle& t) {
         for (size_t i = 0; i < ways.size(); ++i)
-            if (crosses(t, point, ways[i])) {
+            if (wayTo(t, point, ways[i]) > 0.0) {
                 if (objects.size() <= t.object)
                     objects.resize(t.object + 1);
                 ++objects[t.object].count[i];

@@ -53,6 +53,9 @@ class StrokeWalk {
 /// Whether `p` is in one of the boxes or within `margin` m of it.
 [[nodiscard]] bool isInAny(std::span<const Bounds> boxes, const glm::dvec3& p, double margin);
 
+/// Whether no triangle lies between two places. `triangles` holds those around the line.
+[[nodiscard]] bool isFree(const NearTriangles& triangles, const glm::dvec3& from, const glm::dvec3& to);
+
 /// Whether `point` may be inside a closed object: a path that starts there feels nothing. `out`: the
 /// direction most likely to be free.
 [[nodiscard]] bool maybeInside(const TriangleSource& triangles, const glm::dvec3& point,

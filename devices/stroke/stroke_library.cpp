@@ -204,6 +204,7 @@ struct Ground {
     const TriangleSource& triangles;
     const Bounds bounds;
     std::span<const Bounds> keepOut; ///< boxes that the hand must not enter
+    const CarryPath& carry;
 };
 
 /// The path along `curve` that keeps to its depth over `near`; nullopt if none does with any hover.
@@ -216,8 +217,12 @@ std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near,
         StrokePath path = motion.finish(curve.at(0.0, told.depth));
         const glm::dvec3 start = curve.at(0.0, told.depth + hover);
         if (strokeHolds(near, path, told.depth, ground.keepOut) &&
-            !maybeInside(ground.triangles, start, glm::normalize(start - curve.at(0.0, 0.0))))
-            return path;
+            !maybeInside(ground.triangles, start, glm::normalize(start - curve.at(0.0, 0.0)))) {
+            if (!ground.carry)
+                return path;
+            if (auto carried = ground.carry(path, told.depth))
+                return carried;
+        }
     }
     return std::nullopt;
 }
@@ -266,7 +271,7 @@ std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& ki
 /// The stroke of `kind` at its place, at the largest size that fits.
 std::optional<StrokePath> laid(const Ground& ground, const StrokeKind& kind, const StrokeRequest& request,
                                const Told& told) {
-    const auto& [triangles, bounds, keepOut] = ground;
+    const auto& [triangles, bounds, keepOut, carry] = ground;
     const double reach = std::min(kind.reach, kReachOfModel * bounds.diagonal());
     if (kind.move == cross)
         if (auto path = laidAcrossEdge(ground, kind, request.front, reach, told))
@@ -301,14 +306,15 @@ double withinRange(double asked, double own, double least, double most, const ch
 }
 
 StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keepOut, const StrokeKind& kind,
-                   const StrokeRequest& request, const Told& told) {
+                   const StrokeRequest& request, const Told& told, const CarryPath& carry = {}) {
     if (kind.move == nullptr)
         return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
-                          keepOut);
-    const Ground ground{triangles, boundsOf(triangles), keepOut};
+                          keepOut, carry);
+    const Ground ground{triangles, boundsOf(triangles), keepOut, carry};
     const Told allowed{told.speed, std::min(told.depth, kDeepestOfModel * ground.bounds.diagonal())};
-    if (auto path = laid(ground, kind, request, allowed))
-        return *std::move(path);
+    if (allowed.depth >= kLeastDepth)
+        if (auto path = laid(ground, kind, request, allowed))
+            return *std::move(path);
     throw noPlaceToPress(triangles);
 }
 
@@ -354,12 +360,22 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
     const std::vector<MovingPart> parts = movingParts(scene, deviceFromScene, request);
     if (parts.empty())
         return layKind(triangles, {}, *kind, request, told);
-    for (const MovingPart& part : parts)
-        try {
-            return layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told)
-                .carriedBy(part.motion);
-        } catch (const Error&) {
-            continue; // the others sweep over all of it
+    for (const bool mayJump : {false, true})
+        for (const MovingPart& part : parts) {
+            if (mayJump && part.deforming == nullptr)
+                continue;
+            try {
+                CarryPath carry;
+                if (part.deforming != nullptr)
+                    carry = [&](const StrokePath& path, double depth) {
+                        return part.deforming->carried(path, depth, part.keepOut, mayJump);
+                    };
+                const StrokePath path =
+                    layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told, carry);
+                return part.deforming != nullptr ? path : path.carriedBy(part.motion);
+            } catch (const Error&) {
+                continue; // the others sweep over all of it, or it moves too far
+            }
         }
     throw noPlaceToPress(triangles);
 }

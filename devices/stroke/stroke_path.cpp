@@ -85,6 +85,15 @@ StrokePath StrokePath::through(std::vector<glm::dvec3> control, double interval,
     return StrokePath(std::move(control), interval, place);
 }
 
+StrokePath StrokePath::moved(const std::function<glm::dvec3(double, const glm::dvec3&)>& place) const {
+    StrokePath path = *this;
+    // A uniform cubic spline is nearest to its second control point where it starts.
+    for (size_t k = 0; k < control_.size(); ++k)
+        path.control_[k] =
+            place((static_cast<double>(k) - 1.0) / static_cast<double>(control_.size()), control_[k]);
+    return path;
+}
+
 glm::dvec3 StrokePath::position(double time) const noexcept {
     const auto [knot, t] = placeOf(time, control_.size(), interval_);
     const double s = 1.0 - t;

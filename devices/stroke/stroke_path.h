@@ -1,14 +1,16 @@
 #pragma once
 // Paths on which a simulated hand strokes an arbitrary model.
 
-#include "devices/surface/part_motion.h"
+#include "devices/stroke/path_motion.h"
 #include "devices/surface/triangle_source.h"
 #include "engine/math/similarity.h"
 #include "engine/scene/scene.h"
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,15 +51,18 @@ class StrokePath {
     [[nodiscard]] glm::dvec3 position(double time) const noexcept; ///< m, device frame; time in s
     [[nodiscard]] glm::dvec3 velocity(double time) const noexcept; ///< m/s
     /// The same path for a hand that moves with a part of the scene. Null: static.
-    [[nodiscard]] StrokePath carriedBy(std::shared_ptr<const PartMotion> part) const {
+    [[nodiscard]] StrokePath carriedBy(std::shared_ptr<const PathMotion> motion) const {
         StrokePath path = *this;
-        path.part_ = std::move(part);
+        path.motion_ = std::move(motion);
         return path;
     }
+    /// The path on which a hand is where `place` takes it: from the share of the period and the position
+    /// then.
+    [[nodiscard]] StrokePath moved(const std::function<glm::dvec3(double, const glm::dvec3&)>& place) const;
     /// Position of the hand at `time` of the path and `sceneTime` of the animation; position(time) on a
     /// static part.
     [[nodiscard]] glm::dvec3 positionIn(double time, double sceneTime) const noexcept {
-        return part_ == nullptr ? position(time) : part_->at(sceneTime).point(position(time));
+        return motion_ == nullptr ? position(time) : motion_->at(time / period(), sceneTime, position(time));
     }
     /// m: the fixed point when the hand's workspace is zoomed; of a tour, its start.
     [[nodiscard]] const glm::dvec3& place() const { return place_; }
@@ -72,7 +77,7 @@ class StrokePath {
     std::vector<glm::dvec3> control_;
     double interval_; // s
     glm::dvec3 place_;
-    std::shared_ptr<const PartMotion> part_;
+    std::shared_ptr<const PathMotion> motion_;
 };
 
 /// A stroke over any `scene` (static pose), placed by `deviceFromScene`: from above the model down onto it,
@@ -87,8 +92,12 @@ class StrokePath {
                                     const StrokeOptions& options = {});
 /// The same over triangles given by their corners, three each, in the device frame.
 [[nodiscard]] StrokePath strokeOver(std::span<const glm::dvec3> corners, const StrokeOptions& options = {});
-/// The same over any triangles, by a hand that avoids the boxes of `keepOut`.
+/// What becomes of a path, `depth` m deep, that holds on the surface at rest; nullopt: it does not hold while
+/// the surface moves.
+using CarryPath = std::function<std::optional<StrokePath>(const StrokePath& path, double depth)>;
+/// The same over any triangles, by a hand that avoids the boxes of `keepOut`. `carry`: empty for a path that
+/// stays as it is.
 [[nodiscard]] StrokePath strokeOver(const TriangleSource& triangles, const StrokeOptions& options,
-                                    std::span<const Bounds> keepOut);
+                                    std::span<const Bounds> keepOut, const CarryPath& carry = {});
 
 } // namespace touchstone

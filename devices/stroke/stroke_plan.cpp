@@ -230,12 +230,24 @@ bool repaired(Stroke& stroke, std::span<const Waypoint> waypoints, const StrokeP
     return faulty;
 }
 
+/// What a tour is laid on.
+struct TourGround {
+    const TriangleSource& triangles;
+    Bounds bounds;
+    std::span<const Bounds> keepOut; ///< boxes that the hand must not enter
+    const CarryPath& carry;
+
+    [[nodiscard]] std::optional<StrokePath> carried(const StrokePath& path, double depth) const {
+        return carry ? carry(path, depth) : std::optional(path);
+    }
+};
+
 /// The tour along a stroke, repaired until it keeps to its depth everywhere. Nullopt where hardly anything is
 /// left to touch.
-std::optional<StrokePath> heldTour(const TriangleSource& triangles, std::span<const Bounds> keepOut,
-                                   Stroke stroke, double depth, const StrokeOptions& options) {
+std::optional<StrokePath> heldTour(const TourGround& ground, Stroke stroke, double depth,
+                                   const StrokeOptions& options) {
     for (size_t i = 0; i < stroke.hits.size(); ++i)
-        if (stroke.hits[i] && isInAny(keepOut, stroke.hits[i]->point, 2.0 * kDepthFactor * depth))
+        if (stroke.hits[i] && isInAny(ground.keepOut, stroke.hits[i]->point, 2.0 * kDepthFactor * depth))
             stroke.keepOff(i);
     for (int round = 0; round < kRepairs && stroke.share() >= kHardlyAnything; ++round) {
         const std::vector<Waypoint> waypoints = waypointsAlong(stroke, depth, options.clearance);
@@ -243,10 +255,10 @@ std::optional<StrokePath> heldTour(const TriangleSource& triangles, std::span<co
         for (const Waypoint& waypoint : waypoints)
             places.push_back(waypoint.place);
         StrokePath path = StrokePath::around(places, options.speed);
-        const NearTriangles near = trianglesAlong(triangles, path, depth);
-        StrokeWalk walk(near, path, depth, keepOut);
+        const NearTriangles near = trianglesAlong(ground.triangles, path, depth);
+        StrokeWalk walk(near, path, depth, ground.keepOut);
         if (!repaired(stroke, waypoints, path, walk, depth, round))
-            return walk.pressed() ? std::optional(std::move(path)) : std::nullopt;
+            return walk.pressed() ? ground.carried(path, depth) : std::nullopt;
     }
     return std::nullopt;
 }
@@ -285,8 +297,9 @@ std::vector<glm::dvec3> pressesFromAround(const TriangleSource& triangles, const
 }
 
 /// Presses one point repeatedly, where all else fails.
-std::optional<StrokePath> pressSomewhere(const TriangleSource& triangles, std::span<const Bounds> keepOut,
-                                         const Bounds& bounds, double depth, const StrokeOptions& options) {
+std::optional<StrokePath> pressSomewhere(const TourGround& ground, double depth,
+                                         const StrokeOptions& options) {
+    std::optional<StrokePath> found;
     const auto pathAt = [&](const PressPlace& at) {
         const std::array<glm::dvec3, 2> ends{at.point + at.hover * at.normal,
                                              at.point - at.depth * at.normal};
@@ -294,46 +307,54 @@ std::optional<StrokePath> pressSomewhere(const TriangleSource& triangles, std::s
     };
     const auto holds = [&](const PressPlace& at, const TriangleSource& near) {
         const StrokePath path = pathAt(at);
-        return strokeHolds(near, path, at.depth, keepOut) &&
-               !maybeInside(triangles, path.position(0.0), at.normal);
+        if (!strokeHolds(near, path, at.depth, ground.keepOut) ||
+            maybeInside(ground.triangles, path.position(0.0), at.normal))
+            return false;
+        found = ground.carried(path, at.depth);
+        return found.has_value();
     };
-    const std::vector<PressPlace> places = pressPlaces(triangles, bounds, glm::normalize(options.front));
+    const std::vector<PressPlace> places =
+        pressPlaces(ground.triangles, ground.bounds, glm::normalize(options.front));
     const double hover = std::min(options.clearance, 100.0 * depth); // small models are pressed slowly
-    const auto place = firstPress(triangles, places, hover, depth, holds);
-    return place ? std::optional(pathAt(*place)) : std::nullopt;
+    (void)firstPress(ground.triangles, places, hover, depth, holds);
+    return found;
 }
 
-std::optional<StrokePath> pathOver(const TriangleSource& triangles, std::span<const Bounds> keepOut,
-                                   const Bounds& bounds, const StrokeOptions& options) {
+std::optional<StrokePath> pathOver(const TourGround& ground, const StrokeOptions& options) {
+    const auto& [triangles, bounds, keepOut, carry] = ground;
     const double depth = std::min(options.depth, kDeepestPlanned * bounds.diagonal());
+    if (!(depth >= kLeastDepth))
+        return std::nullopt;
     const auto [best, side] = bestStroke(triangles, bounds, options, depth);
     if (best.share() >= kHardlyAnything) {
-        if (auto path = heldTour(triangles, keepOut, best, depth, options))
+        if (auto path = heldTour(ground, best, depth, options))
             return path;
         const auto fronts = frontsOf(options);
         for (size_t i = 0; i < fronts.size(); ++i)
             if (i != side)
-                if (auto path = heldTour(triangles, keepOut,
-                                         strokeFrom(triangles, bounds, fronts[i], best.spacing, depth), depth,
-                                         options))
+                if (auto path =
+                        heldTour(ground, strokeFrom(triangles, bounds, fronts[i], best.spacing, depth), depth,
+                                 options))
                     return path;
     }
     const auto presses = pressesFromAround(triangles, bounds, depth, options.clearance);
     if (presses.empty())
         return std::nullopt;
-    StrokePath path = StrokePath::around(presses, options.speed);
-    if (strokeHolds(triangles, path, depth, keepOut))
-        return path;
-    return pressSomewhere(triangles, keepOut, bounds, depth, options);
+    if (!carry) { // no way around a part that deforms is sure
+        StrokePath path = StrokePath::around(presses, options.speed);
+        if (strokeHolds(triangles, path, depth, keepOut))
+            return path;
+    }
+    return pressSomewhere(ground, depth, options);
 }
 
 } // namespace
 
 StrokePath strokeOver(const TriangleSource& triangles, const StrokeOptions& options,
-                      std::span<const Bounds> keepOut) {
-    const Bounds bounds = boundsOf(triangles);
-    if (!bounds.empty())
-        if (auto path = pathOver(triangles, keepOut, bounds, options))
+                      std::span<const Bounds> keepOut, const CarryPath& carry) {
+    const TourGround ground{triangles, boundsOf(triangles), keepOut, carry};
+    if (!ground.bounds.empty())
+        if (auto path = pathOver(ground, options))
             return *std::move(path);
     throw noPlaceToPress(triangles);
 }

@@ -1,6 +1,8 @@
 #include "tests/property/stroke_depth.h"
 
 #include "devices/stroke/stroke_library.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/mesh_deformation.h"
 #include "tests/support/felt_stroke.h"
 
 #include <gtest/gtest.h>
@@ -27,14 +29,19 @@ uint64_t bitsOf(const StrokePath& path) {
     return hash;
 }
 
+/// Where an animation starts again at another place a surface may come to enclose a hand, which then feels
+/// nothing until it has left.
+bool startsAgain(const Scene& scene, double time) {
+    const Animation* const animation = playedAnimation(scene);
+    return animation != nullptr && loopedTime(*animation, time) < 0.002;
+}
+
 } // namespace
 
 int expectStrokes(const ScenePtr& scene, const std::string& name) {
-    // Strokes are laid over the surface at rest and do not follow one that deforms (docs/deforming.md) or
-    // bodies.
-    if (scene->physics != nullptr ||
-        std::ranges::any_of(scene->meshes, [](const Mesh& mesh) { return mesh.deformation != nullptr; })) {
-        std::printf("%s deforms or has bodies: left out\n", name.c_str());
+    // Strokes do not follow bodies that hands and gravity move, rigid or soft (docs/bodies.md).
+    if (scene->physics != nullptr || hasSoftBodies(*scene)) {
+        std::printf("%s has bodies: left out\n", name.c_str());
         return 0;
     }
     const Similarity fit = workspaceFromScene(*scene, Fit::Workspace);
@@ -58,9 +65,10 @@ int expectStrokes(const ScenePtr& scene, const std::string& name) {
                         felt.inside ? "\tinside" : "");
         EXPECT_GT(felt.contact, 0) << "it never touches";
         EXPECT_FALSE(felt.began) << "it begins in the air";
-        EXPECT_FALSE(felt.inside) << "it begins inside a body";
+        const bool inside = felt.inside && !startsAgain(*scene, felt.insideAt);
+        EXPECT_FALSE(inside) << "it begins inside a body at " << felt.insideAt << " s";
         EXPECT_LE(felt.deepest, kDepthFactor * asked) << "at " << felt.deepestAt << " s";
-        broken += felt.contact == 0 || felt.began || felt.inside || !(felt.deepest <= kDepthFactor * asked);
+        broken += felt.contact == 0 || felt.began || inside || !(felt.deepest <= kDepthFactor * asked);
     }
     return broken;
 }

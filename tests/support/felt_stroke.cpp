@@ -26,7 +26,10 @@ FeltStroke feel(const HapticScene& scene, const StrokePath& path, ScenePtr sourc
                         kTick);
         felt.contact += output.contacts > 0;
         felt.began = felt.began || (tick == 0 && output.contacts > 0);
-        felt.inside = felt.inside || has(output.flags, TickFlag::StartedInside);
+        if (!felt.inside && has(output.flags, TickFlag::StartedInside)) {
+            felt.inside = true;
+            felt.insideAt = time;
+        }
         if (output.penetration > felt.deepest) {
             felt.deepest = output.penetration;
             felt.deepestAt = time;

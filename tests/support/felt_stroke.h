@@ -14,6 +14,7 @@ struct FeltStroke {
     int ticks = 0, contact = 0;
     bool began = false;                         ///< in contact in the first tick
     bool inside = false;                        ///< ever began inside a body, where nothing is felt
+    double insideAt = 0.0;                      ///< s, the first time
     double deepest = 0.0, deepestAt = 0.0;      ///< m, |proxy - HIP|; s
     double fastest = 0.0, fastestInTouch = 0.0; ///< m/s
     double jerkiest = 0.0;                      ///< m/s²

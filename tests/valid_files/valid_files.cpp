@@ -19,6 +19,8 @@
 namespace touchstone::test {
 namespace {
 
+constexpr unsigned kLongest = 300; ///< s for a file: a child that takes longer ends, which is a finding
+
 struct Options {
     uint64_t seed = 1, first = 0, count = 1000, batch = 50;
     std::filesystem::path write;
@@ -45,6 +47,7 @@ void save(const Options& options, uint64_t index, const std::vector<uint8_t>& fi
 /// Handles files up to `end` in this process.
 void handle(const Options& options, uint64_t end, Shared& shared) {
     for (; shared.next < end; ++shared.next) {
+        alarm(kLongest);
         const Recipe recipe = recipeOf(options.seed, shared.next);
         const std::vector<uint8_t> file = validFile(recipe);
         const TouchReport report = openAndTouch(file, recipe.seed);

@@ -252,8 +252,10 @@ TEST(StrokeLibrary, SaysWhatIsWrong) {
     EXPECT_THROW((void)layStroke(shape, {.name = "slide", .speed = 2.0}), Error);
     EXPECT_THROW((void)layStroke(shape, {.name = "slide", .speed = NAN}), Error);
     EXPECT_THROW((void)layStroke(shape, {.name = "slide", .depth = -0.001}), Error);
-    const std::vector<glm::dvec3> none, point(3, glm::dvec3(0.01));
+    const std::vector<glm::dvec3> none, point(3, glm::dvec3(0.01)),
+        speck{{0, 0, 0}, {1e-26, 0, 0}, {0, 1e-26, 0}}; // two minutes, and no error
     for (const StrokeInfo& info : strokeInfos()) {
+        EXPECT_THROW((void)laid(speck, std::string(info.name)), Error) << info.name;
         EXPECT_THROW((void)laid(none, std::string(info.name)), Error) << info.name;
         EXPECT_THROW((void)laid(point, std::string(info.name)), Error) << info.name;
     }
