@@ -22,6 +22,7 @@ class HandImpedance final : public Device {
 
     [[nodiscard]] std::string name() const override { return intention_.name() + " that yields"; }
     [[nodiscard]] DeviceLimits limits() const override { return limitsOf(plant_.parameters()); }
+    void feel(const TouchFeedback& felt) noexcept override { intention_.feel(felt); }
     /// Advances the plant to `time` under the last command and reads its sensor. The first sample (and one
     /// whose time does not increase) places the hand at rest at its intention. Invalid while the intention
     /// is.

@@ -7,7 +7,7 @@ namespace touchstone {
 
 DeviceSample SimulatedHand::sample(double time) noexcept {
     DeviceSample sample;
-    sample.position = path_->positionIn(std::max(0.0, time - wait_), time);
+    sample.position = path_->positionIn(std::max(0.0, time - wait_), animation_.value_or(time));
     sample.valid = true;
     sample.begins = !std::exchange(begun_, true);
     sample.inSight = true; // its path is laid onto the model

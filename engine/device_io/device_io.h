@@ -74,6 +74,7 @@ struct TouchFeedback {
     std::span<const glm::dvec3> planes{}; ///< unit normals of the active constraint planes
     int object = -1;                      ///< touched; index into `objects`
     ObjectMotions objects{};              ///< to this tick; empty: nothing moves
+    double animation = 0.0;               ///< s, of the scene's animation in this tick
 };
 
 /// A command to a device, in the device frame. Only the safety stage can make one that is not zero.

@@ -92,6 +92,7 @@ void ServoLoop::sampleHands(Touch& touch, const TickRecord& record) noexcept {
         const DevicePort& port = ports_[hand];
         if (port.feel != nullptr) {
             touch.felt[hand].feedback.objects = poses;
+            touch.felt[hand].feedback.animation = animationTime(*touch.settings, record.time);
             port.feel(port.context, touch.felt[hand].feedback);
         }
         touch.samples[hand] = port.sample(port.context, record.time);

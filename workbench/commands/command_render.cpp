@@ -77,7 +77,7 @@ struct Touched {
         const auto count = static_cast<uint64_t>(seconds * kRate);
         for (uint64_t tick = 0; tick <= count; ++tick) {
             const double time = static_cast<double>(tick) / kRate;
-            record.sample = sampleAt(stroke.positionIn(time, time));
+            record.sample = sampleAt(stroke.positionIn(time, animationTime(settings, time)));
             record.output = hand->tick(settings, record.sample, time, 1.0 / kRate);
         }
         look.frictionCoefficient = frictionCoefficientAt(record, settings, *model.scene, *model.haptic);

@@ -36,7 +36,8 @@ HipPath pathOf(const StrokePath& stroke, const TouchOptions& options) {
     const auto count = static_cast<size_t>(std::floor(seconds * rate * (1.0 + 1e-12))) + 1;
     for (size_t i = 0; i < count; ++i) {
         path.times.push_back(static_cast<double>(i) / rate);
-        path.positions.push_back(stroke.positionIn(path.times.back(), path.times.back()));
+        const double time = path.times.back();
+        path.positions.push_back(stroke.positionIn(time, animationTime(options.settings, time)));
     }
     return path;
 }

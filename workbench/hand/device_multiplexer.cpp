@@ -45,6 +45,7 @@ void DeviceMultiplexer::apply(const DeviceCommand& command) noexcept {
 
 /// The mouse does not receive what another hand, or a gliding one, feels.
 void DeviceMultiplexer::feel(const TouchFeedback& felt) noexcept {
+    animation_ = felt.animation;
     if (followed_ == nullptr && !gliding_)
         mouse_.feel(felt);
     else
@@ -117,8 +118,8 @@ DeviceSample DeviceMultiplexer::sample(double time) noexcept {
     if (driven_ != nullptr) {
         sample = driven_->sample(time);
     } else if (path != nullptr) { // starts at its first position, once the hand is there
-        sample.position =
-            path->positionIn(std::max(0.0, time - glideStart_ - kGlideTime) + lead_ * path->period(), time);
+        sample.position = path->positionIn(
+            std::max(0.0, time - glideStart_ - kGlideTime) + lead_ * path->period(), animation_);
         sample.age = 0.0;
         sample.valid = true;
     }

@@ -98,6 +98,7 @@ class DeviceMultiplexer final : public Device {
     WorkspaceMap map_;
     glm::dvec3 centre_{0.0}; // of the followed hand
     double lastTime_ = 0.0;
+    double animation_ = 0.0;          // s, of the scene's animation in this tick
     uint32_t centred_ = 0, left_ = 0; // of centres_, leaves_
     bool changed_ = false;            // the hand's frame changed: this tick has no history
     bool started_ = false, gliding_ = false;

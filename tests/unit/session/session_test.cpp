@@ -1,5 +1,7 @@
 // A session passes every tick to every subscriber, with the settings that it had.
 
+#include "devices/simulated/simulated_hand.h"
+#include "devices/stroke/stroke_library.h"
 #include "session/device_port.h"
 #include "session/session.h"
 #include "tests/support/recorded_servo.h"
@@ -8,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -128,6 +132,35 @@ TEST_F(SessionTest, OffersEachSceneBeforeItsTicksAndAgainWithANewFile) {
     EXPECT_EQ(session_.scene().number, after);
     EXPECT_EQ(one_.records.front().scene, before);
     EXPECT_EQ(one_.records.back().scene, after);
+}
+
+/// A path on what moves was carried by the time of the tick: at half the speed the hand dived by 21 mm.
+TEST(SessionStroke, RidesOnAnAnimationAtAnySpeed) {
+    for (const char* file : {"moving.glb", "breathing.glb"})
+        for (const double speed : {1.0, 0.5, 0.0, -2.0}) {
+            SCOPED_TRACE(std::string(file) + " at " + std::to_string(speed));
+            const TouchedScene scene = touchedScene(file);
+            const auto path = std::make_shared<const StrokePath>(
+                layStroke(*scene.source, scene.haptic->workspaceFromScene, {.name = "circle"}));
+            SimulatedHand hand(path);
+            Session session({portOf(hand)}, {.wantRealtime = false});
+            HapticSettings settings;
+            settings.texture = TextureMode::Off;
+            settings.friction = FrictionMode::Off;
+            settings.forceShading = ShadingMode::Off;
+            settings.animationSpeed = speed;
+            settings.animationOffset = 0.3;
+            (void)session.touch(scene.haptic, scene.source, scene.identity, settings);
+            double deepest = 0.0;
+            size_t contacts = 0;
+            for (uint64_t tick = 0; 1e-3 * static_cast<double>(tick) < path->period(); ++tick) {
+                const HapticOutput output = session.servo().step(tick).output;
+                deepest = std::max(deepest, output.penetration);
+                contacts += output.contacts > 0 ? 1 : 0;
+            }
+            EXPECT_GT(contacts, 1000u);
+            EXPECT_LE(deepest, 1.5e-3);
+        }
 }
 
 } // namespace
