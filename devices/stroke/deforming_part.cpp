@@ -18,9 +18,10 @@ constexpr double kMostAnchors = 512;
 /// s between samples of an anchor's motion: those between which the hand feels vertices move straight.
 constexpr double kAnchorSample = 1.0 / 240.0;
 constexpr double kMostAnchorSamples = 1e6; ///< of all anchors: 64 MB
-constexpr double kMoments = 24.0;          ///< of a second that are checked
-constexpr double kFewestMoments = 8.0, kMostMoments = 64.0;
-constexpr double kMostPlaces = 3e6; ///< vertices of all moments: 72 MB
+constexpr double kPoses = 24.0;            ///< of a second
+constexpr double kFewestPoses = 8.0, kMostPoses = 64.0;
+constexpr double kMostPlaces = 2e6; ///< vertices in all poses of all parts, but for the fewest poses
+constexpr int kMostTries = 24;      ///< paths that are carried before the part is given up
 
 /// The corners' weights of the projection of `p`, moved into the triangle: near the closest place of it.
 glm::dvec3 weightsNear(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
@@ -83,7 +84,7 @@ class DeformingPart::Poser {
 };
 
 DeformingPart::DeformingPart(const Scene& scene, const Animation& animation, size_t instance,
-                             const Similarity& deviceFromScene)
+                             const Similarity& deviceFromScene, size_t parts)
     : scene_(scene), animation_(animation), instance_(instance), deviceFromScene_(deviceFromScene),
       mesh_(scene.meshes[static_cast<size_t>(scene.instances[instance].mesh)]) {
     const glm::dmat4& sceneFromMesh = scene.instances[instance].sceneFromMesh;
@@ -92,20 +93,55 @@ DeformingPart::DeformingPart(const Scene& scene, const Animation& animation, siz
         front_ = glm::determinant(glm::dmat3(sceneFromMesh)) < 0.0 ? -1 : 1;
     for (const glm::vec3& p : mesh_.positions)
         rest_.push_back(deviceFromScene.point(glm::dvec3(sceneFromMesh * glm::dvec4(glm::dvec3(p), 1.0))));
-    const double most =
-        std::min(kMostMoments, kMostPlaces / std::max(1.0, static_cast<double>(rest_.size())));
-    const double count =
-        std::clamp(std::ceil(animation.duration * kMoments), kFewestMoments, std::max(kFewestMoments, most));
+    const double fit = std::floor(kMostPlaces / static_cast<double>((rest_.size() + 1) * parts));
+    poses_ = static_cast<size_t>(std::clamp(std::ceil(animation.duration * kPoses), kFewestPoses,
+                                            std::clamp(fit, kFewestPoses, kMostPoses)));
+    // The vertices' boxes, widened by half of their way from the pose before and half of that to the next.
     Poser poser(*this);
-    for (const size_t i : farApart(static_cast<size_t>(count))) {
-        Moment& moment = moments_.emplace_back();
-        moment.time = animation.duration * static_cast<double>(i) / count;
-        moment.places.resize(rest_.size());
+    Places before(rest_.size()), now(rest_.size());
+    for (size_t i = 0; i <= poses_; ++i) {
+        poser.evaluate(timeOf(i));
+        poser.placesInto(now);
+        Bounds box;
+        double way = 0.0;
+        for (const uint32_t v : mesh_.indices) {
+            box.include(now[v]);
+            way = i > 0 ? std::max(way, glm::distance(now[v], before[v])) : 0.0;
+        }
+        for (Bounds* of : {i > 0 ? &boxes_.back() : nullptr, &box})
+            if (of != nullptr && !box.empty()) {
+                of->low -= 0.5 * way;
+                of->high += 0.5 * way;
+            }
+        boxes_.push_back(box);
+        std::swap(before, now);
+    }
+}
+
+double DeformingPart::timeOf(size_t pose) const {
+    return animation_.duration * static_cast<double>(pose) / static_cast<double>(poses_);
+}
+
+Bounds DeformingPart::boxAround(double share) const {
+    const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(poses_);
+    Bounds box = boxes_[static_cast<size_t>(std::floor(at))];
+    const Bounds& next = boxes_[static_cast<size_t>(std::ceil(at))];
+    box.include(next.low);
+    box.include(next.high);
+    return box;
+}
+
+/// Made when a path is first tried.
+const std::vector<DeformingPart::Moment>& DeformingPart::moments() const {
+    if (!moments_.empty())
+        return moments_;
+    Poser poser(*this);
+    for (const size_t i : farApart(poses_)) {
+        Moment& moment = moments_.emplace_back(Moment{timeOf(i), Places(rest_.size())});
         poser.evaluate(moment.time);
         poser.placesInto(moment.places);
-        for (const uint32_t v : mesh_.indices)
-            swept_.include(moment.places[v]);
     }
+    return moments_;
 }
 
 TriangleSource DeformingPart::trianglesAt(const Places& places) const {
@@ -168,7 +204,7 @@ glm::dvec3 DeformingPart::placeOf(const Anchor& anchor, const Places& places) co
 /// A triangle that turns over within a sample has passed through a line: its other side is where the hand
 /// is.
 Similarity DeformingPart::motionOf(const Anchor& anchor, const Places& places,
-                                   const Similarity& before) const {
+                                   const Similarity* before) const {
     std::array<glm::dvec3, 3> rest, now;
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t v = mesh_.indices[3 * anchor.triangle + k];
@@ -177,17 +213,19 @@ Similarity DeformingPart::motionOf(const Anchor& anchor, const Places& places,
     }
     const std::optional<glm::dmat3> from = axesOf(rest);
     std::optional<glm::dmat3> to = axesOf(now);
-    if (from && to && glm::dot((*to)[2], before.rotation * (*from)[2]) < 0.0)
+    if (before != nullptr && from && to && glm::dot((*to)[2], before->rotation * (*from)[2]) < 0.0)
         to = glm::dmat3((*to)[0], -(*to)[1], -(*to)[2]);
     Similarity motion;
-    motion.rotation =
-        from && to ? glm::normalize(glm::quat_cast(*to * glm::transpose(*from))) : before.rotation;
+    if (from && to)
+        motion.rotation = glm::normalize(glm::quat_cast(*to * glm::transpose(*from)));
+    else if (before != nullptr)
+        motion.rotation = before->rotation;
     motion.translation = placeOf(anchor, places) - motion.rotation * placeOf(anchor, rest_);
     return motion;
 }
 
 PathMotion DeformingPart::motionOf(std::span<const Anchor> anchors) const {
-    const double most = std::max(1.0, kMostAnchorSamples / static_cast<double>(anchors.size()));
+    const double most = std::max(1.0, std::floor(kMostAnchorSamples / static_cast<double>(anchors.size())));
     const double steps = std::clamp(std::ceil(animation_.duration / kAnchorSample), 1.0, most);
     std::vector<std::vector<Similarity>> samples(anchors.size());
     Poser poser(*this);
@@ -200,7 +238,7 @@ PathMotion DeformingPart::motionOf(std::span<const Anchor> anchors) const {
                 places[v] = poser.at(v);
             }
             samples[k].push_back(
-                motionOf(anchors[k], places, samples[k].empty() ? Similarity{} : samples[k].back()));
+                motionOf(anchors[k], places, samples[k].empty() ? nullptr : &samples[k].back()));
         }
     }
     std::vector<PartMotion> parts;
@@ -241,6 +279,8 @@ bool DeformingPart::isFreeAt(const Moment& moment, const StrokePath& path, std::
 
 std::optional<StrokePath> DeformingPart::carried(const StrokePath& laid, double depth,
                                                  std::span<const Bounds> keepOut, bool mayJump) const {
+    if (tries_[mayJump ? 1 : 0]++ >= kMostTries)
+        return std::nullopt;
     const std::vector<Anchor> anchors = anchorsAlong(laid);
     const auto motion = std::make_shared<const PathMotion>(motionOf(anchors));
     const auto pathAt = [&](double time) {
@@ -248,7 +288,7 @@ std::optional<StrokePath> DeformingPart::carried(const StrokePath& laid, double 
             [&](double share, const glm::dvec3& place) { return motion->at(share, time, place); });
     };
     const StrokePath last = pathAt(animation_.duration * (1.0 - 1e-9));
-    for (const Moment& moment : moments_) {
+    for (const Moment& moment : moments()) {
         const StrokePath path = pathAt(moment.time);
         const TriangleSource triangles = trianglesAt(moment.places);
         const glm::dvec3 start = path.position(0.0), up = start - placeOf(anchors[0], moment.places);

@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,17 +23,18 @@ namespace touchstone {
 /// An instance whose vertices the played animation moves. Device frame. The scene outlives it. One thread.
 class DeformingPart {
   public:
+    /// `parts`: of the scene, which share time and memory.
     DeformingPart(const Scene& scene, const Animation& animation, size_t instance,
-                  const Similarity& deviceFromScene);
+                  const Similarity& deviceFromScene, size_t parts);
 
-    /// All places that it takes in one round of the animation.
-    [[nodiscard]] const Bounds& swept() const { return swept_; }
+    /// The places that it takes around a share of the animation, 0 to 1.
+    [[nodiscard]] Bounds boxAround(double share) const;
 
     /// `laid`, which holds on the surface at rest, carried by it: a hand keeps its distance from the
-    /// triangle under it, in m. Nullopt where in one of 8 to 64 moments of the animation the hand would be
-    /// too deep, in one of the boxes of `keepOut`, or in the air with another part of the surface between it
-    /// and the triangle. `mayJump`: also where the animation starts again at another place and takes the hand
-    /// there through the surface, or while it presses.
+    /// triangle under it, in m. Nullopt after 24 tries, and where in one of 8 to 64 moments of the animation
+    /// the hand would be too deep, in one of the boxes of `keepOut`, or in the air with another part of the
+    /// surface between it and the triangle. `mayJump`: also where the animation starts again at another place
+    /// and takes the hand there through the surface, or while it presses.
     [[nodiscard]] std::optional<StrokePath> carried(const StrokePath& laid, double depth,
                                                     std::span<const Bounds> keepOut, bool mayJump) const;
 
@@ -49,14 +52,16 @@ class DeformingPart {
     /// Evaluates the vertices at a moment of the animation.
     class Poser;
 
+    [[nodiscard]] double timeOf(size_t pose) const; ///< s
+    [[nodiscard]] const std::vector<Moment>& moments() const;
     [[nodiscard]] TriangleSource trianglesAt(const Places& places) const;
     [[nodiscard]] bool isFreeAt(const Moment& moment, const StrokePath& path, std::span<const Anchor> anchors,
                                 double depth, const StrokePath* last) const;
     [[nodiscard]] std::vector<Anchor> anchorsAlong(const StrokePath& path) const;
     [[nodiscard]] glm::dvec3 placeOf(const Anchor& anchor, const Places& places) const;
-    /// From rest to the given places, about the anchor; `before`: where the triangle has no area.
+    /// From rest to the given places, about the anchor. `before`: in the sample before; null: none.
     [[nodiscard]] Similarity motionOf(const Anchor& anchor, const Places& places,
-                                      const Similarity& before) const;
+                                      const Similarity* before) const;
     [[nodiscard]] PathMotion motionOf(std::span<const Anchor> anchors) const;
 
     const Scene& scene_;
@@ -64,10 +69,12 @@ class DeformingPart {
     size_t instance_;
     Similarity deviceFromScene_;
     const Mesh& mesh_;
-    int front_ = 0;               ///< SurfaceTriangle::front
-    Places rest_;                 ///< in the static pose
-    std::vector<Moment> moments_; ///< at equal times from 0 on, in an order in which neighbours are far apart
-    Bounds swept_;
+    int front_ = 0;                       ///< SurfaceTriangle::front
+    Places rest_;                         ///< in the static pose
+    size_t poses_ = 0;                    ///< at equal times from 0 on, before the animation's end
+    std::vector<Bounds> boxes_;           ///< by pose, and at the animation's end
+    mutable std::vector<Moment> moments_; ///< the poses, in an order in which neighbours are far apart
+    mutable std::array<int, 2> tries_{};  ///< without and with mayJump
 };
 
 } // namespace touchstone

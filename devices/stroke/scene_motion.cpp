@@ -99,14 +99,17 @@ using DeformingParts = std::vector<std::shared_ptr<const DeformingPart>>; ///< b
 DeformingParts deformingParts(const Scene& scene, const Animation& animation,
                               const Similarity& deviceFromScene) {
     const std::vector<bool> moved = movedNodes(scene, animation);
-    DeformingParts parts;
+    std::vector<size_t> deforming; // instances
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const MeshDeformation* const deformation =
             scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].deformation.get();
-        parts.push_back(deformation != nullptr && deformation->drivenBy(animation, moved)
-                            ? std::make_shared<const DeformingPart>(scene, animation, i, deviceFromScene)
-                            : nullptr);
+        if (deformation != nullptr && deformation->drivenBy(animation, moved))
+            deforming.push_back(i);
     }
+    DeformingParts parts(scene.instances.size());
+    for (const size_t i : deforming)
+        parts[i] =
+            std::make_shared<const DeformingPart>(scene, animation, i, deviceFromScene, deforming.size());
     return parts;
 }
 
@@ -124,9 +127,14 @@ std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const
         for (size_t i = 0; i < count; ++i) {
             if (part.instances[i] || boxes[i].empty())
                 continue;
-            const bool deforms = deforming[i] != nullptr;
-            const Similarity now = deforms ? carrier.inverse() : carrier.inverseTimes(movement.of(i));
-            sweep(swept[i], deforms ? deforming[i]->swept() : boxes[i], k == 0 ? now : before[i], now);
+            if (deforming[i] != nullptr) {
+                const Similarity now = carrier.inverse();
+                sweep(swept[i], deforming[i]->boxAround(static_cast<double>(k) / static_cast<double>(poses)),
+                      now, now);
+                continue;
+            }
+            const Similarity now = carrier.inverseTimes(movement.of(i));
+            sweep(swept[i], boxes[i], k == 0 ? now : before[i], now);
             before[i] = now;
         }
     }

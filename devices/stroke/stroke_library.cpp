@@ -193,6 +193,9 @@ constexpr std::array kKinds{
     StrokeKind{{"fast", "to and fro over 60 mm, as fast as one wipes", 0.5, 0.001}, 0.03, straight, rub},
 };
 
+/// On a part that deforms, where no hop of the tour holds.
+constexpr std::string_view kInsteadOfTour = "zigzag";
+
 const StrokeKind* findKind(std::string_view name) {
     const auto found =
         std::ranges::find_if(kKinds, [&](const StrokeKind& kind) { return kind.info.name == name; });
@@ -308,8 +311,14 @@ double withinRange(double asked, double own, double least, double most, const ch
 StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keepOut, const StrokeKind& kind,
                    const StrokeRequest& request, const Told& told, const CarryPath& carry = {}) {
     if (kind.move == nullptr)
-        return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
-                          keepOut, carry);
+        try {
+            return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
+                              keepOut, carry);
+        } catch (const Error&) {
+            if (!carry)
+                throw;
+            return layKind(triangles, keepOut, *findKind(kInsteadOfTour), request, told, carry);
+        }
     const Ground ground{triangles, boundsOf(triangles), keepOut, carry};
     const Told allowed{told.speed, std::min(told.depth, kDeepestOfModel * ground.bounds.diagonal())};
     if (allowed.depth >= kLeastDepth)

@@ -96,7 +96,7 @@ class StrokePath {
 /// the surface moves.
 using CarryPath = std::function<std::optional<StrokePath>(const StrokePath& path, double depth)>;
 /// The same over any triangles, by a hand that avoids the boxes of `keepOut`. `carry`: empty for a path that
-/// stays as it is.
+/// stays as it is; else the ellipse alone is tried, and no press.
 [[nodiscard]] StrokePath strokeOver(const TriangleSource& triangles, const StrokeOptions& options,
                                     std::span<const Bounds> keepOut, const CarryPath& carry = {});
 

@@ -299,7 +299,6 @@ std::vector<glm::dvec3> pressesFromAround(const TriangleSource& triangles, const
 /// Presses one point repeatedly, where all else fails.
 std::optional<StrokePath> pressSomewhere(const TourGround& ground, double depth,
                                          const StrokeOptions& options) {
-    std::optional<StrokePath> found;
     const auto pathAt = [&](const PressPlace& at) {
         const std::array<glm::dvec3, 2> ends{at.point + at.hover * at.normal,
                                              at.point - at.depth * at.normal};
@@ -307,17 +306,14 @@ std::optional<StrokePath> pressSomewhere(const TourGround& ground, double depth,
     };
     const auto holds = [&](const PressPlace& at, const TriangleSource& near) {
         const StrokePath path = pathAt(at);
-        if (!strokeHolds(near, path, at.depth, ground.keepOut) ||
-            maybeInside(ground.triangles, path.position(0.0), at.normal))
-            return false;
-        found = ground.carried(path, at.depth);
-        return found.has_value();
+        return strokeHolds(near, path, at.depth, ground.keepOut) &&
+               !maybeInside(ground.triangles, path.position(0.0), at.normal);
     };
     const std::vector<PressPlace> places =
         pressPlaces(ground.triangles, ground.bounds, glm::normalize(options.front));
     const double hover = std::min(options.clearance, 100.0 * depth); // small models are pressed slowly
-    (void)firstPress(ground.triangles, places, hover, depth, holds);
-    return found;
+    const auto place = firstPress(ground.triangles, places, hover, depth, holds);
+    return place ? std::optional(pathAt(*place)) : std::nullopt;
 }
 
 std::optional<StrokePath> pathOver(const TourGround& ground, const StrokeOptions& options) {
@@ -340,11 +336,11 @@ std::optional<StrokePath> pathOver(const TourGround& ground, const StrokeOptions
     const auto presses = pressesFromAround(triangles, bounds, depth, options.clearance);
     if (presses.empty())
         return std::nullopt;
-    if (!carry) { // no way around a part that deforms is sure
-        StrokePath path = StrokePath::around(presses, options.speed);
-        if (strokeHolds(triangles, path, depth, keepOut))
-            return path;
-    }
+    if (carry)
+        return std::nullopt; // no way around a part that deforms is sure, and other strokes fit better
+    StrokePath path = StrokePath::around(presses, options.speed);
+    if (strokeHolds(triangles, path, depth, keepOut))
+        return path;
     return pressSomewhere(ground, depth, options);
 }
 
