@@ -4,6 +4,7 @@
 #include "renderer/scene_renderer_impl.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <set>
 #include <stdexcept>
@@ -105,7 +106,8 @@ bool SceneRenderer::Impl::continueScene(double seconds) {
     revisions_.assign(poses.size(), 0);
     statistics.triangles = scene_->scene().triangleCount();
     statistics.deviceBytes = scene_->deviceBytes();
-    ++sceneNumber;
+    static std::atomic<uint64_t> scenes{0}; // also of renderers that a lost device has taken away
+    sceneNumber = ++scenes;
     return true;
 }
 

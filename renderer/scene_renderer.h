@@ -73,7 +73,7 @@ class SceneRenderer {
     /// scene: what is sculpted. With the mesh's material; its textures keep no coordinates. Once a frame at
     /// most. Throws Error when the device memory does not hold them.
     void reshape(int mesh, const ReshapedMesh& reshaped);
-    /// Counts the scenes that became current.
+    /// Of the current scene, unique in the process; 0: there was none.
     [[nodiscard]] uint64_t sceneNumber() const;
 
     /// sRGB (0..1) of each material of the scene, for ViewMode::Effects; grey where there are too few. Valid

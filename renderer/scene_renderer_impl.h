@@ -77,7 +77,7 @@ struct SceneRenderer::Impl {
 
     Gpu::Impl& gpu;
     std::vector<glm::dmat4> poses;
-    uint64_t sceneNumber = 0; // counts scenes
+    uint64_t sceneNumber = 0;
     SceneRenderer::Statistics statistics;
 
     [[nodiscard]] const Scene* scene() const { return scene_ ? &scene_->scene() : nullptr; }

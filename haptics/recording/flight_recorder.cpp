@@ -201,7 +201,7 @@ void FlightRecorder::rotate() {
 void FlightRecorder::add(const TickToRecord& tick) {
     const double dt = std::clamp(tick.tick.dt, 0.0, 1.0);
     // Half a tick less: a second of ticks adds up to slightly less or more than a second.
-    if (tick.checkpoint != nullptr && (!writer_ || recorded_ + 0.5 * dt >= config_.seconds))
+    if (tick.checkpoint != nullptr && tick.whole && (!writer_ || recorded_ + 0.5 * dt >= config_.seconds))
         rotate();
     if (!writer_)
         return;

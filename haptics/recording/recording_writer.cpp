@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 22 &&
+static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 23 &&
                   memberCount<HapticOutput>() == 22,
               "a member was added: a replay needs it, compares it (stage_hashes.cpp), or is it for people?");
 
@@ -59,7 +59,7 @@ RecordingWriter::RecordingWriter(std::filesystem::path path, RecordingOrigin ori
 }
 
 void RecordingWriter::add(const TickToRecord& tick) {
-    if (!begun_ && tick.checkpoint == nullptr)
+    if (!begun_ && (tick.checkpoint == nullptr || !tick.whole))
         return;
     const bool lost = begun_ && tick.lostBefore > 0;
     const uint32_t root = tick.sculpt != nullptr ? tick.sculpt->root : tick.tick.scene;

@@ -35,6 +35,7 @@ struct TickToRecord {
     const HapticSettings& settings;              ///< TickRecord::settings
     const SceneIdentity* scene = nullptr;        ///< TickRecord::root; null: none
     const TouchCheckpoint* checkpoint = nullptr; ///< of hand 0, taken before this tick
+    bool whole = true;                           ///< TickRecord::whole, where there is a checkpoint
     uint64_t lostBefore = 0;                     ///< ticks made since the last one whose records were lost
     std::span<const HandToRecord> others{};      ///< the other hands
     const SculptToRecord* sculpt = nullptr;      ///< where TickRecord::scene is not its root
@@ -46,9 +47,9 @@ struct TickToRecord {
     const DrivenState* driven = nullptr;            ///< ServoLoop::drivenBefore
 };
 
-/// Writes a recording. Begins with the first tick that has a checkpoint; earlier ones are left out. Ticks are
-/// buffered until `flush`, or for kBlock of them. One thread; every function throws Error that names the
-/// file.
+/// Writes a recording. Begins with the first tick that has a whole checkpoint; earlier ones are left out.
+/// Ticks are buffered until `flush`, or for kBlock of them. One thread; every function throws Error that
+/// names the file.
 class RecordingWriter {
   public:
     RecordingWriter(std::filesystem::path path, RecordingOrigin origin, uint32_t sequence = 0);

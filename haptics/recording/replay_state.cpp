@@ -100,21 +100,10 @@ void Replayer::resume(const RecordedTick& tick) {
         known_ &= restoreTextures(tick, *touched->world.textures());
     if (!known_)
         return;
+    // A scene with bodies is known where their state is recorded, or was known and went on.
     if ((touched->world.bodies() != nullptr || touched->world.soft() != nullptr) && !(goesOn && change_))
-        known_ = resumeBodies(tick, touched->world, goesOn, edited);
-}
-
-/// A scene with bodies is known where their state is recorded, or was known and went on. What goes on is left
-/// as it is where it equals the recorded state. (Failed: a cloth asleep, restored, is not still for a tick.)
-bool Replayer::resumeBodies(const RecordedTick& tick, WorldState& world, bool goesOn, bool edited) {
-    if (!bodies_ || bodies_->tick != tick.tick)
-        return goesOn || edited;
-    if (goesOn) {
-        if (world.bodyState() == bodies_->bytes)
-            return true;
-        differs({.tick = tick.tick, .time = tick.time, .stage = "state"});
-    }
-    return world.restoreBodies(bodies_->bytes);
+        known_ = bodies_ && bodies_->tick == tick.tick ? touched->world.restoreBodies(bodies_->bytes)
+                                                       : goesOn || edited;
 }
 
 /// The state before `tick`: the last whole one and the strokes since. False where that does not fit.

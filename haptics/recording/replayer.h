@@ -97,7 +97,6 @@ class Replayer {
         ReplayScene scene;
         WorldState world;
     };
-    [[nodiscard]] bool resumeBodies(const RecordedTick& tick, WorldState& world, bool goesOn, bool edited);
     void take(const RecordingOrigin& origin);
     void take(const RecordedScene& scene);
     void take(const RecordedSettings& settings);

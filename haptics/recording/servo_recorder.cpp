@@ -82,6 +82,7 @@ void ServoRecorder::take(const TickRecord& record) {
                             .settings = servo_.settingsOf(record.settings),
                             .scene = scene != scenes_.end() ? &scene->second : nullptr,
                             .checkpoint = found ? &checkpoint : nullptr,
+                            .whole = record.whole,
                             .lostBefore = lost,
                             .others = others,
                             .sculpt = isSculpted ? &sculpt : nullptr,

@@ -103,8 +103,13 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     touch.tool = tools_.value().tool.active ? &tools_.value().tool : nullptr;
     const Offer* offer = root;
     record.root = root != nullptr ? root->root : 0;
-    const Offer* const edited = edited_.adopt(
-        [&](const Offer* next) { return touch.canTakeOver(*next, longestAside, touch.editAside); });
+    const Offer* const edited = edited_.adopt([&](const Offer* next) {
+        if (root == nullptr || root->root != touch.root) // the root's first tick: what was felt is released
+            return root == nullptr || next->root <= root->root;
+        // An edit of a scene that waits itself waits behind it.
+        return next->root < root->root ||
+               (next->root == root->root && touch.canTakeOver(*next, longestAside, touch.editAside));
+    });
     if (edited != nullptr && root != nullptr && edited->root == root->root)
         offer = edited;
     // An edit leaves the world's state as it is: the hands' alone is kept, and a replay goes on with its own.
@@ -117,12 +122,14 @@ void ServoLoop::prepare(Touch& touch) noexcept {
         if (offer != nullptr && offer->oldestEdit > 0)
             record.editDelay = static_cast<uint32_t>(record.tick - offer->oldestEdit);
         due = true;
-        whole = whole || offer == root || record.root != touch.root;
+        whole = whole || offer == root || record.root != touch.root || std::isnan(touch.previousTime);
         touch.scene = number;
         touch.root = record.root;
     }
     record.scene = touch.scene;
     record.checkpoint = due;
+    record.whole = due && (whole || offer == nullptr ||
+                           (offer->world.bodies() == nullptr && offer->world.soft() == nullptr));
     if (due)
         takeCheckpoints(touch, whole);
     if (offer != nullptr && offer->world.driven() != nullptr) [[unlikely]]
@@ -141,7 +148,7 @@ void ServoLoop::takeCheckpoints(Touch& touch, bool whole) noexcept {
     if (whole && touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
         touch.offer->world.bodies()->keep(record.tick);
     if (whole && touch.offer != nullptr && touch.offer->world.soft() != nullptr)
-        touch.offer->world.soft()->keep(record.tick);
+        touch.offer->world.keepSoft(record.tick);
     const size_t count = touch.checkpoints.size();
     for (size_t i = 0; i < count; ++i) {
         const size_t hand = count - 1 - i;

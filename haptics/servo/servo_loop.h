@@ -43,6 +43,7 @@ struct TickRecord {
     bool missed = false;     ///< the step ended after the next deadline
     bool late = false;       ///< input of the step: the preceding one was late
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
+    bool whole = false;      ///< with the state of all that moves: a replay can begin here
     uint32_t settings = 0;   ///< number for ServoLoop::settingsOf
     /// Number that ServoLoop::offerScene returned, or that of a scene with other fields; 0: none, no step.
     uint32_t scene = 0;

@@ -35,7 +35,7 @@ class SoftObjects {
     void advance(bool begins, bool hold, std::span<ObjectMotion> motions) noexcept;
     /// Nothing moved in this tick nor in the last one.
     [[nodiscard]] bool still() const noexcept { return still_ && wasStill_; }
-    /// After SoftStates::restore.
+    /// After SoftStates::restore, and where a state is kept: nothing is still.
     void showRestored() noexcept { step(true); }
 
   private:

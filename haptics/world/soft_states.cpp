@@ -396,8 +396,8 @@ bool SoftStates::restore(std::span<const std::byte> bytes) noexcept {
     return sound;
 }
 
-void SoftStates::keep(uint64_t tick) noexcept {
-    (void)kept_.keep(tick, [&](std::span<std::byte> bytes) {
+bool SoftStates::keep(uint64_t tick) noexcept {
+    return kept_.keep(tick, [&](std::span<std::byte> bytes) {
         save(bytes);
         return stateSize();
     });

@@ -73,8 +73,8 @@ class SoftStates {
     void save(std::span<std::byte> bytes) const noexcept;
     /// False where the bytes do not fit. Not while a thread steps.
     [[nodiscard]] bool restore(std::span<const std::byte> bytes) noexcept;
-    /// Servo: keeps the state before `tick` for another thread; dropped where that one does not keep up.
-    void keep(uint64_t tick) noexcept;
+    /// Servo: keeps the state before `tick` for another thread; false where that one does not keep up.
+    [[nodiscard]] bool keep(uint64_t tick) noexcept;
     /// That thread: the next state that was kept.
     [[nodiscard]] bool takeKept(uint64_t& tick, std::vector<std::byte>& bytes) {
         return kept_.take(tick, bytes);

@@ -232,6 +232,11 @@ void WorldState::stepSoftApart() const {
     softStates_->stepApart();
 }
 
+void WorldState::keepSoft(uint64_t tick) noexcept {
+    if (softStates_->keep(tick))
+        soft_->showRestored();
+}
+
 bool WorldState::softHeld() const noexcept {
     return softStates_->held();
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 namespace touchstone {
 
@@ -55,8 +57,16 @@ class TimelineMaker {
             line_.segments_.back().checkpoint &&
             line_.size() - line_.segments_.back().first < kSculptedSegment)
             return;
-        line_.segments_.push_back(
-            {.first = line_.size(), .offset = offset_, .checkpoint = true, .tool = line_.tool_});
+        waiting_ = offset_;
+        if (!bodies_ || !line_.roots_.contains(checkpoint.scene))
+            begin();
+    }
+    /// A segment, at the checkpoint that waits.
+    void begin() {
+        line_.segments_.push_back({.first = line_.size(),
+                                   .offset = *std::exchange(waiting_, std::nullopt),
+                                   .checkpoint = true,
+                                   .tool = line_.tool_});
     }
     void take(const RecordedLoss& loss) {
         line_.lost_ += loss.ticks;
@@ -74,7 +84,12 @@ class TimelineMaker {
     }
     void take(const RecordedContacts&) {}
     void take(const RecordedLocations&) {}
-    void take(const RecordedBodies&) {}
+    // Beside bodies an edit's checkpoint is one to begin at where their state follows.
+    void take(const RecordedBodies&) {
+        bodies_ = true;
+        if (waiting_)
+            begin();
+    }
     void take(const RecordedDriven&) {}
     void take(const RecordedTextures& textures) { line_.textures_.push_back({offset_, textures.part == 0}); }
     void take(const RecordedStrokes&) { line_.textures_.push_back({offset_, false}); }
@@ -86,7 +101,9 @@ class TimelineMaker {
     Timeline line_;
     std::vector<float> force_, depth_;
     uint64_t offset_ = 0;
-    double time_ = 0.0; // of the previous tick
+    std::optional<uint64_t> waiting_; // offset of a checkpoint at which no segment has begun
+    bool bodies_ = false;             // there were some
+    double time_ = 0.0;               // of the previous tick
     bool touching_ = false;
 };
 
@@ -100,6 +117,7 @@ std::span<const TimelineTextures> Timeline::texturesBefore(size_t segment) const
 }
 
 void TimelineMaker::take(const RecordedTicks& ticks) {
+    waiting_.reset();
     if (line_.segments_.empty() || line_.size() - line_.segments_.back().first >= kLongestSegment)
         line_.segments_.push_back({.first = line_.size(), .offset = offset_, .tool = line_.tool_});
     for (const RecordedTick& tick : ticks.ticks)

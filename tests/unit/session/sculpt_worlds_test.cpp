@@ -3,7 +3,7 @@
 
 #include "engine/load/scene_loader.h"
 #include "haptics/settings/tick_flags.h"
-#include "haptics/texture/persistent_textures.h"
+#include "haptics/world/driven_objects.h"
 #include "haptics/world/soft_states.h"
 #include "tests/support/program.h"
 #include "tests/support/test_shapes.h"
@@ -80,9 +80,18 @@ TouchedScene besideFile(const std::string& file) {
     return withClay(*loadScene(std::filesystem::path(TOUCHSTONE_ASSETS) / file), file);
 }
 
+/// A block that rests unless a caller moves it.
+TouchedScene besideABlock() {
+    BodyMaker maker;
+    (void)maker.surface(0.4, 0.2);
+    (void)addCube(maker, "block", {0.0, 0.0, 0.0}, 0.04, 0.0);
+    return withClay(*maker.scene(), "block");
+}
+
 struct World {
     std::string name;
     std::function<TouchedScene()> scene;
+    bool driven = false; ///< a caller moves its last object
 };
 
 class SculptWorlds : public testing::TestWithParam<World> {
@@ -117,7 +126,15 @@ class SculptWorlds : public testing::TestWithParam<World> {
 
 TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
     const TouchedScene scene = GetParam().scene();
-    (void)session_.touch(scene.haptic, scene.source, scene.identity);
+    std::shared_ptr<DrivenObjects> driven;
+    if (GetParam().driven) {
+        driven = std::make_shared<DrivenObjects>();
+        const size_t block = scene.haptic->objects.size() - 2; // before the clay
+        const Similarity rest = scene.haptic->restMotions[block].workspaceFromObject;
+        ASSERT_TRUE(driven->drive(static_cast<int>(block), rest,
+                                  Similarity{.translation = {0.0, 0.5, 0.0}} * rest, 0.01, 0.0));
+    }
+    (void)session_.touch(scene.haptic, scene.source, scene.identity, SceneSwap::Anew, false, driven);
     const SoftStates* const soft = session_.servo().soft();
     const std::vector<double> before = heights();
     for (const SculptTool tool : {SculptTool::Carve, SculptTool::Add, SculptTool::Smooth})
@@ -132,6 +149,13 @@ TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
     const std::vector<double> after = heights();
     for (size_t b = 0; b < before.size(); ++b)
         EXPECT_LT(after[b], before[b] - 0.005) << "body " << b << " falls";
+    if (driven != nullptr) {
+        ASSERT_EQ(driven->newest().count, 1u);
+        const DrivenPose& block = driven->newest().poses()[0];
+        const double seconds =
+            static_cast<double>(session_.servo().counters().ticks) / RecordedServo::kQuick.rateHz;
+        EXPECT_NEAR(block.now.translation.y, 0.01 * seconds, 0.005) << "it goes on";
+    }
     recording_.recorder.finish();
     const ReplayReport report = replayOf(file_, {scene});
     expectEqualReplay(report);
@@ -141,7 +165,8 @@ TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
 INSTANTIATE_TEST_SUITE_P(All, SculptWorlds,
                          testing::Values(World{"Bodies", besideBodies}, World{"DeformingSheet", besideASheet},
                                          World{"Cloth", [] { return besideFile("cloth.glb"); }},
-                                         World{"Jelly", [] { return besideFile("jelly.glb"); }}),
+                                         World{"Jelly", [] { return besideFile("jelly.glb"); }},
+                                         World{"DrivenBlock", besideABlock, true}),
                          [](const auto& world) { return world.param.name; });
 
 } // namespace
