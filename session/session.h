@@ -26,7 +26,7 @@ class Session {
     /// Touches a scene from the next tick on (ServoLoop::offerScene). Returns its number. Null: nothing can
     /// be touched, and the scene offered to the subscribers has the number 0.
     /// `sculpted`: where the present scene was sculpted, the new one has the same objects and takes their
-    /// fields over. `driven`: as ServoLoop::offerScene's; such a scene is not sculpted.
+    /// fields over, and `driven` is that of the present scene; else it is as ServoLoop::offerScene's.
     uint32_t touch(std::shared_ptr<const HapticScene> scene, ScenePtr source, SceneIdentity identity,
                    SceneSwap swap = SceneSwap::Anew, bool sculpted = false,
                    std::shared_ptr<DrivenObjects> driven = nullptr);

@@ -367,9 +367,11 @@ void BodyWorld::followAnimation(std::span<const ObjectMotion> motions, std::span
     }
 }
 
-void BodyWorld::keep(uint64_t tick) noexcept {
-    if (!kept_.keep(tick, [&](std::span<std::byte> bytes) { return save(bytes); }))
+bool BodyWorld::keep(uint64_t tick) noexcept {
+    const bool kept = kept_.keep(tick, [&](std::span<std::byte> bytes) { return save(bytes); });
+    if (!kept)
         earliest_ = tick_; // as in a replay, whether it is recorded or not
+    return kept;
 }
 
 double BodyWorld::energy(double gravity) const noexcept {

@@ -97,8 +97,8 @@ class BodyWorld {
     [[nodiscard]] size_t stateCapacity() const noexcept;
     /// False, with nothing changed, where the bytes are no state of these bodies.
     [[nodiscard]] bool restore(std::span<const std::byte> bytes) noexcept;
-    /// Servo: keeps the state before `tick` for another thread; dropped where that one does not keep up.
-    void keep(uint64_t tick) noexcept;
+    /// Servo: keeps the state before `tick` for another thread; false where that one does not keep up.
+    [[nodiscard]] bool keep(uint64_t tick) noexcept;
     /// Another thread: the kept states in order; false where there is none.
     bool takeKept(uint64_t& tick, std::vector<std::byte>& bytes) { return kept_.take(tick, bytes); }
 

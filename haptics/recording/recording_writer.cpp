@@ -10,7 +10,7 @@ namespace touchstone {
 
 namespace {
 
-static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 23 &&
+static_assert(memberCount<DeviceSample>() == 9 && memberCount<TickRecord>() == 24 &&
                   memberCount<HapticOutput>() == 22,
               "a member was added: a replay needs it, compares it (stage_hashes.cpp), or is it for people?");
 

@@ -41,12 +41,17 @@ void Replayer::putDriven(const RecordedTick& tick, Touched& touched) const {
         if (static_cast<size_t>(pose.object) >= objects)
             throw Error("recording", "", "moves an object that its scene does not have",
                         "the file is damaged, or its scene is another one now");
-    if (touched.world.driven() == nullptr) {
-        CarriedOver goesOn = touched.world.carriedOver();
-        goesOn.driven = std::make_shared<DrivenObjects>();
-        touched.world = WorldState(touched.scene.source, *touched.scene.haptic, WorldBodies::Simulated,
-                                   std::move(goesOn));
-    }
+    const auto share = [](Touched& of, std::shared_ptr<DrivenObjects> driven) {
+        if (of.world.driven() != nullptr)
+            return;
+        CarriedOver goesOn = of.world.carriedOver();
+        goesOn.driven = std::move(driven);
+        of.world = WorldState(of.scene.source, *of.scene.haptic, WorldBodies::Simulated, std::move(goesOn));
+    };
+    // An edited scene has those of its root, which tells where they are (`moved`).
+    Touched& root = *loaded_.at(rootOf(tick.scene));
+    share(root, std::make_shared<DrivenObjects>());
+    share(touched, root.world.driven());
     touched.world.driven()->restore(state->second);
 }
 

@@ -30,9 +30,9 @@ struct Difference {
     uint64_t tick = 0;
     double time = 0.0;
     uint32_t hand = 0; ///< TickRecord::hand; 0 with "poses"
-    /// One of kStageNames; "contact location" where a display shows another place; "state" where a checkpoint
-    /// differs from the state after the preceding ticks; "poses" where the objects are elsewhere; "field"
-    /// where a sculpted scene has other fields.
+    /// One of kStageNames; "contact location" where a display shows another place; "state" where a hand's
+    /// checkpoint differs from its state after the preceding ticks; "poses" where the objects are elsewhere;
+    /// "field" where a sculpted scene has other fields.
     std::string stage;
     glm::dvec3 recordedProxy{0.0}, replayedProxy{0.0}; ///< m, workspace
     glm::dvec3 recordedForce{0.0}, replayedForce{0.0}; ///< N, stage 7

@@ -1,6 +1,7 @@
 #include "haptics/recording/servo_recorder.h"
 
 #include <exception>
+#include <utility>
 
 namespace touchstone {
 
@@ -54,6 +55,8 @@ void ServoRecorder::take(const TickRecord& record) {
         others_.push_back({record.hand, recorded, found ? std::optional(checkpoint) : std::nullopt});
         return;
     }
+    if (std::exchange(lastTick_, record.tick) >= record.tick) // the servo was started again
+        bodies_.clear();
     // Popped whether anybody records or not, so that the next ones find room.
     while (record.checkpoint && (bodies_.empty() || bodiesTick_ < record.tick) &&
            servo_.popBodyState(bodiesTick_, bodies_))
@@ -82,7 +85,7 @@ void ServoRecorder::take(const TickRecord& record) {
                             .settings = servo_.settingsOf(record.settings),
                             .scene = scene != scenes_.end() ? &scene->second : nullptr,
                             .checkpoint = found ? &checkpoint : nullptr,
-                            .whole = record.whole,
+                            .whole = record.whole && (bodies || !record.keptState),
                             .lostBefore = lost,
                             .others = others,
                             .sculpt = isSculpted ? &sculpt : nullptr,

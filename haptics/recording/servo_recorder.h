@@ -74,7 +74,7 @@ class ServoRecorder {
     std::vector<HandToRecord> others_; // of the next tick
     TextureCopy textures_;
     std::vector<std::byte> bodies_; // the state that was popped last
-    uint64_t bodiesTick_ = 0;
+    uint64_t bodiesTick_ = 0, lastTick_ = 0;
     std::string problem_;
     bool failed_ = false;
 };

@@ -104,11 +104,12 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     const Offer* offer = root;
     record.root = root != nullptr ? root->root : 0;
     const Offer* const edited = edited_.adopt([&](const Offer* next) {
-        if (root == nullptr || root->root != touch.root) // the root's first tick: what was felt is released
-            return root == nullptr || next->root <= root->root;
-        // An edit of a scene that waits itself waits behind it.
-        return next->root < root->root ||
-               (next->root == root->root && touch.canTakeOver(*next, longestAside, touch.editAside));
+        // In the root's first tick what was felt is released. An edit of a scene that waits itself waits
+        // behind it.
+        if (root != nullptr && root->root == touch.root && next->root == root->root)
+            return touch.canTakeOver(*next, longestAside, touch.editAside);
+        touch.editAside = 0;
+        return root == nullptr || next->root <= root->root;
     });
     if (edited != nullptr && root != nullptr && edited->root == root->root)
         offer = edited;
@@ -128,10 +129,10 @@ void ServoLoop::prepare(Touch& touch) noexcept {
     }
     record.scene = touch.scene;
     record.checkpoint = due;
-    record.whole = due && (whole || offer == nullptr ||
-                           (offer->world.bodies() == nullptr && offer->world.soft() == nullptr));
     if (due)
         takeCheckpoints(touch, whole);
+    record.whole = due && (record.keptState || offer == nullptr ||
+                           (offer->world.bodies() == nullptr && offer->world.soft() == nullptr));
     if (offer != nullptr && offer->world.driven() != nullptr) [[unlikely]]
         offer->world.driven()->begin(record.tick, record.dt, record.checkpoint);
 }
@@ -139,16 +140,14 @@ void ServoLoop::prepare(Touch& touch) noexcept {
 /// One of every hand, that of hand 0 the last. `whole`: with the state of what moves, so that a replay can
 /// begin here.
 void ServoLoop::takeCheckpoints(Touch& touch, bool whole) noexcept {
-    const TickRecord& record = touch.record();
+    TickRecord& record = touch.record();
     if (whole) {
         checkpointWanted_.store(false, std::memory_order_relaxed);
         touch.nextCheckpoint =
             record.tick + static_cast<uint64_t>(std::max(1.0, config_.checkpointSeconds * config_.rateHz));
     }
-    if (whole && touch.offer != nullptr && touch.offer->world.bodies() != nullptr)
-        touch.offer->world.bodies()->keep(record.tick);
-    if (whole && touch.offer != nullptr && touch.offer->world.soft() != nullptr)
-        touch.offer->world.keepSoft(record.tick);
+    if (whole && touch.offer != nullptr)
+        record.keptState = touch.offer->world.keepState(record.tick);
     const size_t count = touch.checkpoints.size();
     for (size_t i = 0; i < count; ++i) {
         const size_t hand = count - 1 - i;

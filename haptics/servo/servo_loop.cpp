@@ -61,8 +61,12 @@ void ServoLoop::start() {
     if (waiting_ != nullptr)
         waiting_->world.publishAhead(animationTime(offeredSettings_.back().settings, 0.0));
     waiting_.reset();
+    // Kept before ticks of the last run, whose numbers come again.
     for (auto& [scene, driven] : driven_)
         driven->forgetKept();
+    uint64_t tick = 0;
+    for (std::vector<std::byte> bytes; popBodyState(tick, bytes);)
+        continue;
     thread_ = std::thread([this] { run(); });
     scheduled_.wait(false, std::memory_order_acquire);
 }

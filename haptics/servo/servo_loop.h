@@ -44,6 +44,7 @@ struct TickRecord {
     bool late = false;       ///< input of the step: the preceding one was late
     bool checkpoint = false; ///< a TouchCheckpoint was taken before it (ServoLoop::popCheckpoint)
     bool whole = false;      ///< with the state of all that moves: a replay can begin here
+    bool keptState = false;  ///< that of bodies is among it (ServoLoop::popBodyState)
     uint32_t settings = 0;   ///< number for ServoLoop::settingsOf
     /// Number that ServoLoop::offerScene returned, or that of a scene with other fields; 0: none, no step.
     uint32_t scene = 0;
@@ -116,8 +117,10 @@ class ServoLoop {
     ServoLoop(const ServoLoop&) = delete;
     ServoLoop& operator=(const ServoLoop&) = delete;
 
-    void start(); ///< returns once the thread has its scheduling; no-op while running
-    void stop();  ///< joins; the last command sent is zero. May be restarted: time and ticks start from 0
+    /// Returns once the thread has its scheduling; no-op while running. Ticks are counted from 0 again:
+    /// records of the last run should have been popped, since checkpoints and states are found by their tick.
+    void start();
+    void stop(); ///< joins; the last command sent is zero. May be restarted: time and ticks start from 0
 
     /// Makes tick `number` at once on the calling thread, without a clock: the same code, deterministic. Not
     /// while the servo thread runs. Allocates in the first call. The caller enters the float mode

@@ -232,9 +232,13 @@ void WorldState::stepSoftApart() const {
     softStates_->stepApart();
 }
 
-void WorldState::keepSoft(uint64_t tick) noexcept {
-    if (softStates_->keep(tick))
-        soft_->showRestored();
+bool WorldState::keepState(uint64_t tick) noexcept {
+    if (bodies_ != nullptr)
+        return bodies_->keep(tick);
+    if (softStates_ == nullptr || !softStates_->keep(tick))
+        return false;
+    soft_->showRestored();
+    return true;
 }
 
 bool WorldState::softHeld() const noexcept {

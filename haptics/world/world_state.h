@@ -166,9 +166,10 @@ class WorldState {
     void shareTextures(std::shared_ptr<PersistentTextures> textures) noexcept;
     /// WorldBodies::Shown: the next `advance` puts the bodies there.
     void showBodies(const body::BodyPoses& poses);
-    /// SoftStates::keep, of a world that has some. A replay that begins there shows what it restores: so does
-    /// this one.
-    void keepSoft(uint64_t tick) noexcept;
+    /// Keeps the state of bodies or soft bodies before `tick` for another thread. False where there are none,
+    /// or where that thread does not keep up. A replay that begins there shows the soft bodies that it
+    /// restores: so does this one.
+    [[nodiscard]] bool keepState(uint64_t tick) noexcept;
     /// The state that the rest of a recording depends on: of bodies or of soft bodies (no scene has both).
     [[nodiscard]] std::vector<std::byte> bodyState() const;
     /// That of a recording: as after the ticks before. False where the bytes do not fit.

@@ -55,7 +55,7 @@ void PlaybackDevice::feel(const TouchFeedback& felt) noexcept {
     if (followed_ == nullptr && !gliding_)
         own_.feel(felt);
     else
-        own_.feel({.objects = felt.objects});
+        own_.feel({.objects = felt.objects, .animation = felt.animation});
 }
 
 /// The command is the user's hand's; what the recorded or gliding hand feels is not bounded by its press.

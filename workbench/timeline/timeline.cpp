@@ -49,7 +49,10 @@ class TimelineMaker {
         if (line_.origin_.version.empty())
             line_.origin_ = origin;
     }
-    void take(const RecordedScene& scene) { line_.scenes_[scene.number] = scene; }
+    void take(const RecordedScene& scene) {
+        bodies_ = false; // until its own are read
+        line_.scenes_[scene.number] = scene;
+    }
     void take(const RecordedSettings& settings) { line_.settings_[settings.number] = settings.settings; }
     void take(const TouchCheckpoint& checkpoint) {
         // Each edit of a sculpted scene begins with one.
@@ -102,7 +105,7 @@ class TimelineMaker {
     std::vector<float> force_, depth_;
     uint64_t offset_ = 0;
     std::optional<uint64_t> waiting_; // offset of a checkpoint at which no segment has begun
-    bool bodies_ = false;             // there were some
+    bool bodies_ = false;             // the scene has some
     double time_ = 0.0;               // of the previous tick
     bool touching_ = false;
 };

@@ -331,6 +331,25 @@ TEST_F(ReplayTest, AServoThatIsStoppedAndStartedAgain) {
     EXPECT_EQ(report.ticks, rig.servo.counters().ticks);
 }
 
+/// Its ticks have the numbers of the run before, from whose end states of bodies were left.
+TEST_F(ReplayTest, ARecordingThatBeginsWithTheNextRunHasTheBodies) {
+    for (const char* name : {"blocks.glb", "cloth.glb"}) {
+        RecordedServo rig(doughnutHand);
+        rig.offer(touchedScene(name));
+        rig.ticks(12000);
+        rig.servo.stop();
+        rig.drain();
+        rig.recorder.start(file_, "test");
+        rig.ticks(6000);
+        rig.finish();
+        const ReplayReport report = replayOf(file_, rig.scenes);
+        SCOPED_TRACE(name);
+        expectEqualReplay(report);
+        EXPECT_GE(report.ticks, 2000u);
+        std::filesystem::remove(file_);
+    }
+}
+
 TEST_F(ReplayTest, TicksThatWereNotReadInTimeAreSaidAndTheReplayGoesOnBehindThem) {
     RecordedServo rig(
         doughnutHand,

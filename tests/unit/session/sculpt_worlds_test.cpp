@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -94,9 +95,9 @@ struct World {
     bool driven = false; ///< a caller moves its last object
 };
 
-class SculptWorlds : public testing::TestWithParam<World> {
+class SculptWorld : public testing::Test {
   protected:
-    SculptWorlds() {
+    SculptWorld() {
         session_.subscribe(recording_);
         recording_.recorder.start(file_, "test");
     }
@@ -107,6 +108,15 @@ class SculptWorlds : public testing::TestWithParam<World> {
                      .object = static_cast<int32_t>(scene.haptic->objects.size() - 1),
                      .radius = kToolRadius},
                     ticks);
+    }
+    /// A caller lifts the object before the clay by 0.5 m, slowly.
+    static std::shared_ptr<DrivenObjects> lifted(const TouchedScene& scene) {
+        auto driven = std::make_shared<DrivenObjects>();
+        const size_t block = scene.haptic->objects.size() - 2;
+        const Similarity rest = scene.haptic->restMotions[block].workspaceFromObject;
+        EXPECT_TRUE(driven->drive(static_cast<int>(block), rest,
+                                  Similarity{.translation = {0.0, 0.5, 0.0}} * rest, 0.01, 0.0));
+        return driven;
     }
     /// What moves besides the hand: bodies' and soft bodies' places.
     [[nodiscard]] std::vector<double> heights() {
@@ -124,16 +134,11 @@ class SculptWorlds : public testing::TestWithParam<World> {
     Recording recording_{session_};
 };
 
+class SculptWorlds : public SculptWorld, public testing::WithParamInterface<World> {};
+
 TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
     const TouchedScene scene = GetParam().scene();
-    std::shared_ptr<DrivenObjects> driven;
-    if (GetParam().driven) {
-        driven = std::make_shared<DrivenObjects>();
-        const size_t block = scene.haptic->objects.size() - 2; // before the clay
-        const Similarity rest = scene.haptic->restMotions[block].workspaceFromObject;
-        ASSERT_TRUE(driven->drive(static_cast<int>(block), rest,
-                                  Similarity{.translation = {0.0, 0.5, 0.0}} * rest, 0.01, 0.0));
-    }
+    const std::shared_ptr<DrivenObjects> driven = GetParam().driven ? lifted(scene) : nullptr;
     (void)session_.touch(scene.haptic, scene.source, scene.identity, SceneSwap::Anew, false, driven);
     const SoftStates* const soft = session_.servo().soft();
     const std::vector<double> before = heights();
@@ -160,6 +165,47 @@ TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
     const ReplayReport report = replayOf(file_, {scene});
     expectEqualReplay(report);
     EXPECT_EQ(report.ticks, session_.servo().counters().ticks);
+}
+
+/// Where a replay of the file says that the caller's one object is, by tick.
+std::map<uint64_t, glm::dvec3> movedIn(const std::filesystem::path& file, const TouchedScene& scene) {
+    Replayer replayer([&](const RecordedScene&) { return ReplayScene{scene.haptic, scene.source}; });
+    RecordingReader reader(file);
+    std::map<uint64_t, glm::dvec3> places;
+    const ReplayReport report =
+        replayer.replay(reader, [&](const RecordedTick& tick, const HapticOutput&, int64_t, bool) {
+            if (replayer.moved().size() == 1)
+                places[tick.tick] = replayer.moved()[0].now.translation;
+        });
+    EXPECT_FALSE(report.first.has_value());
+    return places;
+}
+
+/// The timeline replays from the middle: from an edit, before which the root has touched nothing.
+TEST_F(SculptWorld, AReplayThatBeginsAtAnEditTellsWhereACallersObjectsAre) {
+    const TouchedScene scene = besideABlock();
+    (void)session_.touch(scene.haptic, scene.source, scene.identity, SceneSwap::Anew, false, lifted(scene));
+    sculpt(scene, SculptTool::Carve, 6000);
+    endSculpting(session_);
+    recording_.recorder.finish();
+    const std::map<uint64_t, glm::dvec3> whole = movedIn(file_, scene);
+    std::vector<RecordedItem> items = itemsOf(file_);
+    size_t index = 0;
+    const auto ofFirstHalf = [&](const RecordedItem& item) {
+        return index++ < items.size() / 2 && (std::holds_alternative<RecordedTicks>(item) ||
+                                              std::holds_alternative<TouchCheckpoint>(item) ||
+                                              std::holds_alternative<RecordedDriven>(item));
+    };
+    std::vector<RecordedItem> second;
+    for (const RecordedItem& item : items)
+        if (!ofFirstHalf(item))
+            second.push_back(item);
+    writeItems(file_, second);
+    const std::map<uint64_t, glm::dvec3> half = movedIn(file_, scene);
+    EXPECT_GT(half.size(), 1000u);
+    EXPECT_LT(half.size(), whole.size());
+    for (const auto& [tick, place] : half)
+        ASSERT_EQ(place, whole.at(tick)) << tick;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SculptWorlds,

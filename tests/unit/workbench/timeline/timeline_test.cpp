@@ -149,6 +149,41 @@ TEST_F(TimelineTest, SegmentsCoverItAndBeginAtCheckpoints) {
     EXPECT_EQ(segments[3].first, 10000u);
 }
 
+/// Edits of the scene begin no segment before the bodies that belong to them; those of a scene without bodies
+/// do, also where the scene before had some.
+TEST_F(TimelineTest, EditsBeginSegmentsWhereTheirBodiesAre) {
+    std::vector<RecordedItem> items{RecordedSettings{1, {}}, RecordedScene{.number = 1},
+                                    TouchCheckpoint{.scene = 1}, RecordedBodies{}};
+    double time = 0.0;
+    const auto ticksOn = [&] {
+        items.emplace_back(ticksFrom(time, 1200, kNothing));
+        time += 1.2;
+    };
+    const auto edit = [&](uint32_t root, uint32_t number, bool bodies) {
+        items.emplace_back(RecordedSculpt{.scene = number, .root = root});
+        const auto tick = static_cast<uint64_t>(1000.0 * time + 0.5);
+        items.emplace_back(TouchCheckpoint{.tick = tick, .scene = number});
+        if (bodies)
+            items.emplace_back(RecordedBodies{.tick = tick});
+        ticksOn();
+    };
+    ticksOn();
+    edit(1, 2, true);
+    edit(1, 3, false);
+    items.emplace_back(RecordedScene{.number = 4});
+    items.emplace_back(TouchCheckpoint{.tick = 3600, .scene = 4});
+    ticksOn();
+    edit(4, 5, false);
+    edit(4, 6, false);
+    items.emplace_back(RecordedEnd{7200});
+    std::vector<size_t> begins;
+    for (const TimelineSegment& segment : made(items)->segments()) {
+        begins.push_back(segment.first);
+        EXPECT_TRUE(segment.checkpoint) << segment.first;
+    }
+    EXPECT_EQ(begins, (std::vector<size_t>{0, 1200, 3600, 4800, 6000}));
+}
+
 std::vector<RecordedItem> threeBlocks() {
     return {recordingOrigin("touch", 1000.0), RecordedSettings{1, {}},       ticksFrom(0.0, 4, kNothing),
             ticksFrom(0.004, 4, kNothing),    ticksFrom(0.008, 4, kNothing), RecordedEnd{12}};
