@@ -21,7 +21,6 @@ constexpr double kMostAnchorSamples = 1e6; ///< of all anchors: 64 MB
 constexpr double kPoses = 24.0;            ///< of a second
 constexpr double kFewestPoses = 8.0, kMostPoses = 64.0;
 constexpr double kMostPlaces = 2e6; ///< vertices in all poses of all parts, but for the fewest poses
-constexpr int kMostTries = 24;      ///< paths that are carried before the part is given up
 
 /// The corners' weights of the projection of `p`, moved into the triangle: near the closest place of it.
 glm::dvec3 weightsNear(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
@@ -279,8 +278,6 @@ bool DeformingPart::isFreeAt(const Moment& moment, const StrokePath& path, std::
 
 std::optional<StrokePath> DeformingPart::carried(const StrokePath& laid, double depth,
                                                  std::span<const Bounds> keepOut, bool mayJump) const {
-    if (tries_[mayJump ? 1 : 0]++ >= kMostTries)
-        return std::nullopt;
     const std::vector<Anchor> anchors = anchorsAlong(laid);
     const auto motion = std::make_shared<const PathMotion>(motionOf(anchors));
     const auto pathAt = [&](double time) {

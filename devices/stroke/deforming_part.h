@@ -11,7 +11,6 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,7 +30,7 @@ class DeformingPart {
     [[nodiscard]] Bounds boxAround(double share) const;
 
     /// `laid`, which holds on the surface at rest, carried by it: a hand keeps its distance from the
-    /// triangle under it, in m. Nullopt after 24 tries, and where in one of 8 to 64 moments of the animation
+    /// triangle under it, in m. Nullopt where in one of 8 to 64 moments of the animation
     /// the hand would be too deep, in one of the boxes of `keepOut`, or in the air with another part of the
     /// surface between it and the triangle. `mayJump`: also where the animation starts again at another place
     /// and takes the hand there through the surface, or while it presses.
@@ -74,7 +73,6 @@ class DeformingPart {
     size_t poses_ = 0;                    ///< at equal times from 0 on, before the animation's end
     std::vector<Bounds> boxes_;           ///< by pose, and at the animation's end
     mutable std::vector<Moment> moments_; ///< the poses, in an order in which neighbours are far apart
-    mutable std::array<int, 2> tries_{};  ///< without and with mayJump
 };
 
 } // namespace touchstone

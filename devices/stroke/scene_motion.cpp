@@ -19,8 +19,9 @@ namespace {
 constexpr size_t kMaxParts = 8;
 constexpr double kSampleTime = 1e-3; ///< s; at 10 m/s² the error of a chord is 1 µm
 constexpr double kMaxSamples = 20000.0;
-constexpr int kSide = 24;      ///< rays per side of the view that measure visibility
-constexpr size_t kBoxes = 256; ///< poses of the other parts that are boxed, at most
+constexpr int kSide = 24; ///< rays per side of the view that measure visibility
+/// Poses of the other parts that are boxed. Beside parts that deform not fewer than these have boxes for.
+constexpr size_t kFewestBoxes = 16, kFewestDeforming = 64, kBoxes = 256;
 
 /// By node: the lowest one at or above it that the animation moves itself; -1: none.
 std::vector<int> moversOf(const Scene& scene, const Animation& animation) {
@@ -117,7 +118,9 @@ DeformingParts deformingParts(const Scene& scene, const Animation& animation,
 std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const Bounds> boxes,
                             const DeformingParts& deforming, const MovingPart& part, size_t first) {
     const size_t count = boxes.size();
-    const size_t poses = std::clamp<size_t>(200000 / std::max<size_t>(count, 1), 16, kBoxes);
+    const bool anyDeforms = std::ranges::any_of(deforming, [](const auto& of) { return of != nullptr; });
+    const size_t poses = std::clamp<size_t>(200000 / std::max<size_t>(count, 1),
+                                            anyDeforms ? kFewestDeforming : kFewestBoxes, kBoxes);
     std::vector<Bounds> swept(count);
     std::vector<Similarity> before(count);
     for (size_t k = 0; k <= poses; ++k) {
@@ -127,14 +130,11 @@ std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const
         for (size_t i = 0; i < count; ++i) {
             if (part.instances[i] || boxes[i].empty())
                 continue;
-            if (deforming[i] != nullptr) {
-                const Similarity now = carrier.inverse();
-                sweep(swept[i], deforming[i]->boxAround(static_cast<double>(k) / static_cast<double>(poses)),
-                      now, now);
-                continue;
-            }
-            const Similarity now = carrier.inverseTimes(movement.of(i));
-            sweep(swept[i], boxes[i], k == 0 ? now : before[i], now);
+            const bool deforms = deforming[i] != nullptr;
+            const Similarity now = deforms ? carrier.inverse() : carrier.inverseTimes(movement.of(i));
+            const double share = static_cast<double>(k) / static_cast<double>(poses);
+            sweep(swept[i], deforms ? deforming[i]->boxAround(share) : boxes[i], k == 0 ? now : before[i],
+                  now);
             before[i] = now;
         }
     }

@@ -333,11 +333,11 @@ std::optional<StrokePath> pathOver(const TourGround& ground, const StrokeOptions
                                  options))
                     return path;
     }
+    if (carry)
+        return std::nullopt; // no way around a part that deforms is sure, and other strokes fit better
     const auto presses = pressesFromAround(triangles, bounds, depth, options.clearance);
     if (presses.empty())
         return std::nullopt;
-    if (carry)
-        return std::nullopt; // no way around a part that deforms is sure, and other strokes fit better
     StrokePath path = StrokePath::around(presses, options.speed);
     if (strokeHolds(triangles, path, depth, keepOut))
         return path;

@@ -232,9 +232,9 @@ TS_API ts_status ts_hands_touch(ts_hand hands, const ts_path* paths, const ts_ti
                                 size_t* done);
 
 /* The positions of a simulated hand that strokes the scene, `rate` a second for one period of the stroke
- * (`touchstone touch
- * --stroke`): the first `capacity` rows of 3 in `positions` (may be NULL), all of them counted in `rows`.
- * `speed` (m/s) and `depth` (m): 0 is the stroke's own. */
+ * (`touchstone touch --stroke`), an animation playing from its beginning at its own speed: the first
+ * `capacity` rows of 3 in `positions` (may be NULL), all of them counted in `rows`. `speed` (m/s) and `depth`
+ * (m): 0 is the stroke's own. */
 TS_API ts_status ts_stroke(ts_scene scene, const char* name, double speed, double depth, double rate,
                            double* positions, size_t capacity, size_t* rows);
 
@@ -280,7 +280,8 @@ typedef struct ts_session_options {
     const ts_device* own; /* copied; its context outlives the session */
     size_t keep;          /* ticks kept for ts_session_take; 0: none */
     /* Hz, 100 to 4000, of a control loop apart from contact (docs/control.md); 0: none, the servo commands
-     * the device. Its own thread then calls the device. */
+     * the device. Its own thread then calls the device; a simulated hand then strokes what moves as if the
+     * animation were played at its own speed. */
     double control;
     double contact_power; /* W that the servo's contact may add to the loop's spring; 0: 1 */
     double goal_power;    /* W that ts_session_goal may */
