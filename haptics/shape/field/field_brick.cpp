@@ -4,6 +4,7 @@
 #include "haptics/shape/field/vectors.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
 
@@ -38,6 +39,7 @@ BrickMeasure measureBrick(const glm::ivec3& first, const glm::ivec3& cells,
                           std::span<const float, kNodesInBrick> nodes) {
     constexpr size_t kRow = kBrickSide, kLayer = kRow * kBrickSide;
     BrickMeasure measure;
+    Eight steepest{};
     bool any = false;
     for (int z = 0; z < cells.z; ++z)
         for (int y = 0; y < cells.y; ++y) {
@@ -48,16 +50,22 @@ BrickMeasure measureBrick(const glm::ivec3& first, const glm::ivec3& cells,
                         dy = larger(along(a, b), along(c, d)), dz = larger(along(a, c), along(b, d));
             const Eight steepness = dx * dx + dy * dy + dz * dz;
             const Eight least = smaller(smaller(lowest(a), lowest(b)), smaller(lowest(c), lowest(d)));
-            for (int x = 0; x < cells.x; ++x) {
-                measure.steepest = std::max(measure.steepest, steepness[x]);
-                if (least[x] > 0.0f)
-                    continue;
-                const glm::ivec3 cell = first + glm::ivec3(x, y, z);
-                measure.low = any ? glm::min(measure.low, cell) : cell;
-                measure.high = any ? glm::max(measure.high, cell + 1) : cell + 1;
-                any = true;
-            }
+            if (cells.x == kBrickCells)
+                steepest = larger(steepest, steepness);
+            else
+                for (int x = 0; x < cells.x; ++x)
+                    measure.steepest = std::max(measure.steepest, steepness[x]);
+            const uint32_t reached = lanes(least <= 0.0f) & ((1u << cells.x) - 1u);
+            if (reached == 0)
+                continue;
+            const glm::ivec3 low = first + glm::ivec3(std::countr_zero(reached), y, z);
+            const glm::ivec3 high = first + glm::ivec3(std::bit_width(reached), y + 1, z + 1);
+            measure.low = any ? glm::min(measure.low, low) : low;
+            measure.high = any ? glm::max(measure.high, high) : high;
+            any = true;
         }
+    for (int x = 0; x < kBrickCells; ++x)
+        measure.steepest = std::max(measure.steepest, steepest[x]);
     return measure;
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
 
+#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -209,6 +210,15 @@ void FieldGrid::copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes>
         std::copy_n(own.nodes, kBrickNodes, nodes.begin());
         return;
     }
+    if (glm::all(glm::lessThan(brick + 1, bricks_))) {
+        for (int k = 0; k < 8; ++k) {
+            const glm::ivec3 step(k & 1, k >> 1 & 1, k >> 2);
+            brickOf(brick + step)
+                .copy(glm::ivec3(0), kBrick - (kBrick - 1) * step, &nodes[brickNode(kBrick * step)], kNodes,
+                      kNodes * kNodes);
+        }
+        return;
+    }
     float* to = nodes.data();
     for (int z = 0; z < kNodes; ++z)
         for (int y = 0; y < kNodes; ++y) {
@@ -224,22 +234,58 @@ void FieldGrid::copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes>
 
 void FieldGrid::copyNodes(const glm::ivec3& first, const glm::ivec3& size,
                           std::span<float> values) const noexcept {
-    float* to = values.data();
-    for (int z = first.z; z < first.z + size.z; ++z)
-        for (int y = first.y; y < first.y + size.y; ++y)
-            for (int x = first.x; x < first.x + size.x;) {
-                const glm::ivec3 at(x, y, z), brick = glm::min(at / kBrick, bricks_ - 1),
-                                              own = at - kBrick * brick;
-                const Brick& from = brickOf(brick);
-                const int side = from.nodes == nullptr ? kNodes : static_cast<int>(from.side);
-                const int count = std::min(side - own.x, first.x + size.x - x);
-                if (from.nodes == nullptr)
-                    std::fill_n(to, count, from.flat);
-                else
-                    std::copy_n(from.nodes + own.x + side * (own.y + side * own.z), count, to);
-                to += count;
-                x += count;
+    const auto row = static_cast<size_t>(size.x);
+    copyNodes(first, size, values.data(), row, row * static_cast<size_t>(size.y));
+}
+
+void FieldGrid::copyNodes(const glm::ivec3& first, const glm::ivec3& size, float* values, size_t row,
+                          size_t layer) const noexcept {
+    const glm::ivec3 low = glm::min(first / kBrick, bricks_ - 1);
+    const glm::ivec3 high = glm::min((first + size - 1) / kBrick, bricks_ - 1);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = high.x; x >= low.x; --x) {
+                const glm::ivec3 brick(x, y, z), start = kBrick * brick;
+                const glm::ivec3 from = glm::max(first - start, glm::ivec3(0));
+                glm::ivec3 end = first + size - start;
+                if (x < high.x) // overwrites what the next brick gave
+                    end.x = std::min(end.x, brickOf(brick).inRow());
+                if (y < high.y)
+                    end.y = kBrick;
+                if (z < high.z)
+                    end.z = kBrick;
+                const glm::uvec3 to(start + from - first);
+                brickOf(brick).copy(from, end, values + to.x + row * to.y + layer * to.z, row, layer);
             }
+}
+
+void FieldGrid::copyRows(const glm::ivec3& brick, const glm::ivec2& from, const glm::ivec2& end,
+                         float* values, size_t row, size_t layer) const noexcept {
+    const Brick& own = brickOf(brick);
+    own.copy({0, from.x, from.y}, {own.inRow(), end.x, end.y}, values, row, layer);
+}
+
+void FieldGrid::Brick::copy(const glm::ivec3& from, const glm::ivec3& end, float* values, size_t row,
+                            size_t layer) const noexcept {
+    const int count = end.x - from.x;
+    for (int z = from.z; z < end.z; ++z, values += layer) {
+        float* to = values;
+        for (int y = from.y; y < end.y; ++y, to += row) {
+            if (nodes == nullptr) {
+                std::fill_n(to, count, flat);
+                continue;
+            }
+            const float* const own = nodes + place(glm::uvec3(from.x, y, z));
+            if (count < kBrick) {
+                for (int x = 0; x < count; ++x)
+                    to[x] = own[x];
+                continue;
+            }
+            std::memcpy(to, own, kBrick * sizeof(float)); // no call, as the length is known
+            if (count > kBrick)
+                to[kBrick] = own[kBrick];
+        }
+    }
 }
 
 glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {

@@ -88,6 +88,14 @@ class FieldGrid {
     void copyBrick(const glm::ivec3& brick, std::span<float, kBrickNodes> nodes) const noexcept;
     /// The values of `size` nodes from `first` on, the first axis fastest; all of them in the grid.
     void copyNodes(const glm::ivec3& first, const glm::ivec3& size, std::span<float> values) const noexcept;
+    /// Whole rows that a brick keeps itself, or that are flat, of 8 or 9 nodes: those from `from` to before
+    /// `end` (y and z in the brick). Into a part of a larger box: its rows begin `row` floats apart, its
+    /// layers `layer`.
+    void copyRows(const glm::ivec3& brick, const glm::ivec2& from, const glm::ivec2& end, float* values,
+                  size_t row, size_t layer) const noexcept;
+    /// copyNodes into such a part.
+    void copyNodes(const glm::ivec3& first, const glm::ivec3& size, float* values, size_t row,
+                   size_t layer) const noexcept;
 
     /// Gradient at a node, by central differences, per object unit; one-sided at the border.
     [[nodiscard]] glm::dvec3 nodeGradient(const glm::ivec3& node) const noexcept;
@@ -100,10 +108,19 @@ class FieldGrid {
         /// Nodes that are kept on each axis: kBrick, or kNodes where no brick follows that has the last ones,
         /// and in edited bricks.
         uint32_t side;
-        [[nodiscard]] float value(const glm::uvec3& at) const noexcept {
-            const uint32_t place = at.x + side * (at.y + side * at.z);
-            return nodes == nullptr ? flat : nodes[place];
+        [[nodiscard]] uint32_t place(const glm::uvec3& at) const noexcept {
+            return at.x + side * (at.y + side * at.z);
         }
+        [[nodiscard]] float value(const glm::uvec3& at) const noexcept {
+            return nodes == nullptr ? flat : nodes[place(at)];
+        }
+        /// How many nodes of a row are here.
+        [[nodiscard]] int inRow() const noexcept {
+            return nodes == nullptr ? kNodes : static_cast<int>(side);
+        }
+        /// The nodes from `from` to before `end`, as FieldGrid::copyRows.
+        void copy(const glm::ivec3& from, const glm::ivec3& end, float* values, size_t row,
+                  size_t layer) const noexcept;
     };
     void fillBrick(const glm::ivec3& brick, const FillBrick& fill, std::vector<float>& nodes);
     [[nodiscard]] Brick kept(const glm::ivec3& brick, std::span<const float> nodes);

@@ -1,6 +1,8 @@
 #pragma once
 // Eight floats or four doubles at a time, by the compilers' vector extension, as in shape/mesh/triangle_tree.
 
+#include <cstdint>
+
 namespace touchstone {
 
 using Eight [[gnu::vector_size(32)]] = float;
@@ -17,6 +19,13 @@ inline Four smaller(Four a, Four b) noexcept {
 }
 inline Four larger(Four a, Four b) noexcept {
     return a > b ? a : b;
+}
+/// A bit for each number of a comparison that is true, the first one lowest.
+inline uint32_t lanes(decltype(Eight{} < Eight{}) which) noexcept {
+    return static_cast<uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Eight>(which)));
+}
+inline uint32_t lanes(decltype(Four{} < Four{}) which) noexcept {
+    return static_cast<uint32_t>(__builtin_ia32_movmskpd256(reinterpret_cast<Four>(which)));
 }
 /// By the sign bits of the differences: of numbers that are finite.
 inline bool anyLess(Eight a, Eight b) noexcept {

@@ -34,25 +34,36 @@ glm::dvec3 ClosestPoints::gradientBefore(const glm::ivec3& node) const {
     return {slope(1), slope(window_.step(1)), slope(window_.step(2))};
 }
 
-FieldCell ClosestPoints::cellAt(const glm::ivec3& cell, bool& crossed) const {
-    const bool isActive = window_.cellIsActive(cell);
-    std::array<double, 8> node{};
-    int negative = 0;
-    for (int k = 0; k < 8; ++k) {
-        const glm::ivec3 at = cell + glm::ivec3(k & 1, k >> 1 & 1, k >> 2);
-        const float value = isActive ? window_.value[window_.index(at)]
-                                     : static_cast<float>(window_.grid->node(window_.first + at));
-        negative += value < 0.0f ? 1 : 0;
-        node[static_cast<size_t>(k)] = static_cast<double>(value) / window_.voxel;
+void ClosestPoints::find(const glm::dvec3& place, Cell& cell) const {
+    const glm::ivec3 at = glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), window_.size - 2);
+    if (at == cell.at)
+        return;
+    cell.at = at;
+    std::array<float, 8> value;
+    if (window_.cellIsActive(at)) {
+        const float* const low = window_.value.data() + window_.index(at);
+        const ptrdiff_t sy = window_.step(1), sz = window_.step(2);
+        value = {low[0], low[1], low[sy], low[sy + 1], low[sz], low[sz + 1], low[sz + sy], low[sz + sy + 1]};
+    } else if (at.x % kBrickCells + 1 < kBrickCells) { // both nodes of each row belong to one brick
+        window_.grid->copyNodes(window_.first + at, glm::ivec3(2), value);
+    } else {
+        for (int k = 0; k < 8; ++k)
+            value[static_cast<size_t>(k)] = static_cast<float>(
+                window_.grid->node(window_.first + at + glm::ivec3(k & 1, k >> 1 & 1, k >> 2)));
     }
-    crossed = negative != 0 && negative != 8;
-    return FieldCell::between(node);
+    std::array<double, 8> node;
+    int negative = 0;
+    for (size_t k = 0; k < 8; ++k) {
+        negative += value[k] < 0.0f ? 1 : 0;
+        node[k] = static_cast<double>(value[k]) / window_.voxel;
+    }
+    cell.crossed = negative != 0 && negative != 8;
+    cell.values = FieldCell::between(node);
 }
 
-double ClosestPoints::valueAt(const glm::dvec3& place) const {
-    const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), window_.size - 2);
-    bool crossed = false;
-    return cellAt(cell, crossed).value(place - glm::dvec3(cell));
+double ClosestPoints::valueAt(const glm::dvec3& place, Cell& cell) const {
+    find(place, cell);
+    return cell.values.value(place - glm::dvec3(cell.at));
 }
 
 /// How far the first change of sign along a unit direction is; INFINITY where there is none before `most`.
@@ -61,14 +72,15 @@ double ClosestPoints::along(const glm::ivec3& node, const glm::dvec3& direction,
     constexpr int kHalvings = 20;
     const glm::dvec3 place(node);
     const bool inside = window_.value[window_.index(node)] < 0.0f;
+    Cell cell;
     for (double begin = 0.0; begin < most; begin += kStep) {
         double end = std::min(begin + kStep, most);
-        if ((valueAt(place + end * direction) < 0.0) == inside)
+        if ((valueAt(place + end * direction, cell) < 0.0) == inside)
             continue;
         double from = begin;
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (from + end);
-            ((valueAt(place + middle * direction) < 0.0) == inside ? from : end) = middle;
+            ((valueAt(place + middle * direction, cell) < 0.0) == inside ? from : end) = middle;
         }
         return 0.5 * (from + end);
     }
@@ -110,12 +122,11 @@ std::optional<glm::dvec3> ClosestPoints::onSurface(const glm::dvec3& point) cons
     constexpr double kOff = 0.01, kFar = 1.0; // voxels
     constexpr int kSteps = 4;
     glm::dvec3 place = point;
+    Cell cell;
     for (int i = 0; i < kSteps; ++i) {
-        const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), window_.size - 2);
-        bool crossed = false;
-        const FieldCell values = cellAt(cell, crossed);
-        const glm::dvec3 u = place - glm::dvec3(cell), slope = values.gradient(u);
-        const double value = values.value(u), squared = glm::dot(slope, slope);
+        find(place, cell);
+        const glm::dvec3 u = place - glm::dvec3(cell.at), slope = cell.values.gradient(u);
+        const double value = cell.values.value(u), squared = glm::dot(slope, slope);
         if (std::abs(value) <= kOff)
             return place;
         if (!(squared > 0.01))
@@ -129,14 +140,11 @@ std::optional<glm::dvec3> ClosestPoints::onSurface(const glm::dvec3& point) cons
 
 glm::dvec3 ClosestPoints::slid(const glm::dvec3& from, const glm::dvec3& point) const {
     constexpr double kOff = 0.01; // voxels: counts as on the surface
-    const auto cellOf = [&](const glm::dvec3& place) {
-        return glm::clamp(glm::ivec3(glm::floor(place)), glm::ivec3(0), window_.size - 2);
-    };
-    bool crossed = false;
-    const glm::ivec3 cell = cellOf(point);
-    const glm::dvec3 slope = cellAt(cell, crossed).gradient(point - glm::dvec3(cell));
+    Cell cell;
+    find(point, cell);
+    const glm::dvec3 slope = cell.values.gradient(point - glm::dvec3(cell.at));
     const double steep = glm::length(slope);
-    if (!crossed || !(steep > 0.1))
+    if (!cell.crossed || !(steep > 0.1))
         return point;
     const glm::dvec3 normal = slope / steep, away = from - point;
     glm::dvec3 tangent = away - glm::dot(away, normal) * normal;
@@ -145,14 +153,13 @@ glm::dvec3 ClosestPoints::slid(const glm::dvec3& from, const glm::dvec3& point) 
         tangent /= length;
     glm::dvec3 next = point + tangent;
     for (int i = 0; i < 2; ++i) {
-        const glm::ivec3 at = cellOf(next);
-        const FieldCell values = cellAt(at, crossed);
-        const glm::dvec3 u = next - glm::dvec3(at), g = values.gradient(u);
-        if (!crossed || !(glm::dot(g, g) > 0.01))
+        find(next, cell);
+        const glm::dvec3 u = next - glm::dvec3(cell.at), g = cell.values.gradient(u);
+        if (!cell.crossed || !(glm::dot(g, g) > 0.01))
             return point;
-        next -= values.value(u) * g / glm::dot(g, g);
+        next -= cell.values.value(u) * g / glm::dot(g, g);
     }
-    if (std::abs(valueAt(next)) > kOff || glm::distance(from, next) >= glm::distance(from, point))
+    if (std::abs(valueAt(next, cell)) > kOff || glm::distance(from, next) >= glm::distance(from, point))
         return point;
     return next;
 }

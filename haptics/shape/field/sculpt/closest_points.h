@@ -32,9 +32,15 @@ class ClosestPoints {
 
   private:
     [[nodiscard]] bool border(const glm::ivec3& node) const;
-    /// Of the grid where the window holds no values.
-    [[nodiscard]] FieldCell cellAt(const glm::ivec3& cell, bool& crossed) const;
-    [[nodiscard]] double valueAt(const glm::dvec3& place) const;
+    struct Cell {
+        glm::ivec3 at{-1};
+        FieldCell values;
+        bool crossed = false; ///< by the surface
+    };
+    /// The cell of a place, read where it is not `cell` already: of the grid where the window holds no
+    /// values.
+    void find(const glm::dvec3& place, Cell& cell) const;
+    [[nodiscard]] double valueAt(const glm::dvec3& place, Cell& cell) const;
     [[nodiscard]] double along(const glm::ivec3& node, const glm::dvec3& direction, double most) const;
 
     const FieldWindow& window_;

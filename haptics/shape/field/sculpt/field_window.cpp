@@ -1,10 +1,13 @@
 #include "haptics/shape/field/sculpt/field_window.h"
 
 #include "engine/core/error.h"
+#include "haptics/shape/field/vectors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <string>
 
 namespace touchstone {
@@ -15,10 +18,17 @@ namespace {
 double largestDistance(const FieldGrid& grid, const glm::ivec3& brick) {
     std::array<float, kNodesInBrick> nodes;
     grid.copyBrick(brick, nodes);
-    float largest = 0.0f;
-    for (const float value : nodes)
-        largest = std::max(largest, std::abs(value));
-    return static_cast<double>(largest) / grid.layout().voxel;
+    static_assert(kNodesInBrick % 8 == 1);
+    Eight largest = Eight{} + std::abs(nodes.back());
+    for (size_t i = 0; i + 8 < nodes.size(); i += 8) {
+        Eight some;
+        std::memcpy(&some, &nodes[i], sizeof some);
+        largest = larger(largest, larger(some, -some));
+    }
+    float most = 0.0f;
+    for (int i = 0; i < 8; ++i)
+        most = std::max(most, largest[i]);
+    return static_cast<double>(most) / grid.layout().voxel;
 }
 
 void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone) {
@@ -48,26 +58,50 @@ void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone
             }
 }
 
-/// Calls visit(first node, index, count) for each row of the nodes that have values: runs of active bricks
-/// along the first axis, with two nodes around.
-template <class Visit>
-void eachFilledRow(const FieldWindow& window, const Visit& visit) {
-    for (size_t i = 0; i < window.active.size();) {
-        const glm::ivec3 from = window.active[i];
-        glm::ivec3 to = from;
-        while (++i < window.active.size() && window.active[i] == to + glm::ivec3(1, 0, 0))
-            to = window.active[i];
-        const glm::ivec3 low = glm::max(kBrickCells * from - 2, glm::ivec3(0));
-        const glm::ivec3 high = glm::min(kBrickCells * (to + 1) + 2, window.size - 1);
+void findAround(FieldWindow& window) {
+    constexpr int kAround = 2; // nodes
+    window.around.clear();
+    std::vector<uint32_t> found(window.isActive.size()); // 1 + index in window.around
+    for (const glm::ivec3& brick : window.active) {
+        const glm::ivec3 first = kBrickCells * brick - kAround, last = window.lastNode(brick) + kAround;
+        const glm::ivec3 low = glm::max(brick - 1, glm::ivec3(0));
+        const glm::ivec3 high = glm::min(brick + 1, window.bricks - 1);
         for (int z = low.z; z <= high.z; ++z)
             for (int y = low.y; y <= high.y; ++y)
-                visit(glm::ivec3(low.x, y, z), window.index({low.x, y, z}), high.x - low.x + 1);
+                for (int x = low.x; x <= high.x; ++x) {
+                    const glm::ivec3 other(x, y, z);
+                    const size_t i = window.brickIndex(other);
+                    if (window.isActive[i] != 0)
+                        continue;
+                    if (found[i] == 0) {
+                        window.around.emplace_back();
+                        found[i] = static_cast<uint32_t>(window.around.size());
+                    }
+                    NodeBox& box = window.around[found[i] - 1];
+                    box.include(glm::max(kBrickCells * other, first));
+                    box.include(glm::min(window.lastNode(other), last));
+                }
     }
 }
 
-/// `count` values from a node on.
-std::span<float> rowOf(std::vector<float>& values, size_t index, int count) {
-    return std::span(values).subspan(index, static_cast<size_t>(count));
+/// Whole rows of a box in a brick with, where the grid keeps them there, the first nodes of the next brick.
+void fillRows(const FieldWindow& window, const FieldGrid& grid, const NodeBox& box,
+              std::vector<float>& values) {
+    const glm::ivec3 brick = glm::min(box.low / kBrickCells, window.bricks - 1), first = kBrickCells * brick;
+    const auto row = static_cast<size_t>(window.step(1)), layer = static_cast<size_t>(window.step(2));
+    const glm::ivec3 low(first.x, box.low.y, box.low.z), from = low - first, end = box.high - first + 1;
+    float* const to = &values[window.index(low)];
+    if (glm::all(glm::lessThan(brick + 1, window.bricks)))
+        grid.copyRows(window.first / kBrickCells + brick, {from.y, from.z}, {end.y, end.z}, to, row, layer);
+    else
+        grid.copyNodes(window.first + low,
+                       {std::min(kBrickSide, window.size.x - low.x), end.y - from.y, end.z - from.z}, to, row,
+                       layer);
+}
+
+/// Of the same bytes; false also where only more than a brick's row would tell.
+bool sameRow(const float* a, const float* b, int count) {
+    return count == kBrickCells && std::memcmp(a, b, kBrickCells * sizeof(float)) == 0;
 }
 
 } // namespace
@@ -109,25 +143,25 @@ void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& c
                     "choose a smaller radius");
 }
 
-SculptZone fillWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
-                      double margin) {
-    placeWindow(window, grid, centre, radius, margin);
+SculptZone fillWindow(FieldWindow& window, const FieldGrid& before, const FieldGrid& now,
+                      const glm::dvec3& centre, double radius, double margin) {
+    placeWindow(window, before, centre, radius, margin);
     window.before.resize(window.nodes());
     window.value.resize(window.nodes());
-    const SculptZone zone{grid.gridFromObject(centre) - glm::dvec3(window.first),
-                          radius / grid.layout().voxel};
-    activate(window, grid, zone);
-    eachFilledRow(window, [&](const glm::ivec3& first, size_t index, int count) {
-        grid.copyNodes(window.first + first, {count, 1, 1}, rowOf(window.before, index, count));
-        std::ranges::copy(rowOf(window.before, index, count), &window.value[index]);
-    });
+    const SculptZone zone{before.gridFromObject(centre) - glm::dvec3(window.first),
+                          radius / before.layout().voxel};
+    activate(window, before, zone);
+    findAround(window);
+    std::vector<NodeBox> filled = window.around;
+    for (const glm::ivec3& brick : window.active)
+        filled.push_back({kBrickCells * brick, window.lastNode(brick)});
+    // Of nodes that two bricks keep those of the former one count, as in FieldGrid::copyNodes.
+    std::ranges::sort(filled, std::greater(), [](const NodeBox& box) { return box.low.x / kBrickCells; });
+    for (const NodeBox& box : filled) {
+        fillRows(window, before, box, window.before);
+        fillRows(window, now, box, window.value);
+    }
     return zone;
-}
-
-void fillValues(FieldWindow& window, const FieldGrid& now) {
-    eachFilledRow(window, [&](const glm::ivec3& first, size_t index, int count) {
-        now.copyNodes(window.first + first, {count, 1, 1}, rowOf(window.value, index, count));
-    });
 }
 
 std::vector<NodeBox> changedNodes(const FieldWindow& window) {
@@ -137,11 +171,14 @@ std::vector<NodeBox> changedNodes(const FieldWindow& window) {
         NodeBox box;
         for (int z = low.z; z <= high.z; ++z)
             for (int y = low.y; y <= high.y; ++y) {
-                const size_t row = window.index({0, y, z});
-                for (int x = low.x; x <= high.x; ++x)
-                    if (window.value[row + static_cast<size_t>(x)] !=
-                        window.before[row + static_cast<size_t>(x)])
-                        box.include({x, y, z});
+                const size_t row = window.index({low.x, y, z});
+                const float *const value = &window.value[row], *const before = &window.before[row];
+                const int count = high.x - low.x + 1;
+                if (sameRow(value, before, count))
+                    continue;
+                for (int i = 0; i < count; ++i)
+                    if (value[i] != before[i])
+                        box.include({low.x + i, y, z});
             }
         if (!box.empty())
             boxes.push_back(box);

@@ -11,6 +11,16 @@
 
 namespace touchstone {
 
+/// Inclusive; empty where low > high.
+struct NodeBox {
+    glm::ivec3 low{1}, high{0};
+    [[nodiscard]] bool empty() const noexcept { return low.x > high.x; }
+    void include(const glm::ivec3& node) noexcept {
+        low = empty() ? node : glm::min(low, node);
+        high = glm::max(high, node);
+    }
+};
+
 /// A box of whole bricks of a grid, of which those that a dab may change are active. Only nodes of active
 /// bricks, and two around, have values. Places in it are counted in voxels from its first node.
 struct FieldWindow {
@@ -20,6 +30,7 @@ struct FieldWindow {
     glm::ivec3 bricks{0};           ///< on each axis
     std::vector<uint8_t> isActive;  ///< of each brick, the first axis fastest
     std::vector<glm::ivec3> active; ///< in the same order
+    std::vector<NodeBox> around;    ///< the other nodes that have values, a box of each brick
     double voxel = 0.0;             ///< object units
     std::vector<float> before;      ///< as in the grid; the first axis fastest
     std::vector<float> value;
@@ -36,9 +47,11 @@ struct FieldWindow {
         return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
     }
     [[nodiscard]] glm::ivec3 nodeAt(size_t index) const noexcept {
-        const auto nx = static_cast<size_t>(size.x), ny = static_cast<size_t>(size.y);
-        return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
-                static_cast<int>(index / nx / ny)};
+        // Of 32 bits, as kMostWindowNodes allows: their division is the cheaper one.
+        const auto nx = static_cast<uint32_t>(size.x), ny = static_cast<uint32_t>(size.y);
+        const uint32_t row = static_cast<uint32_t>(index) / nx, layer = row / ny;
+        return {static_cast<int>(static_cast<uint32_t>(index) - row * nx), static_cast<int>(row - layer * ny),
+                static_cast<int>(layer)};
     }
     [[nodiscard]] ptrdiff_t step(int axis) const noexcept {
         return axis == 0 ? 1 : axis == 1 ? size.x : static_cast<ptrdiff_t>(size.x) * size.y;
@@ -49,7 +62,8 @@ struct FieldWindow {
     /// The brick of a cell. Each node belongs to the cell that begins at it, the last one on an axis to the
     /// cell before.
     [[nodiscard]] bool cellIsActive(const glm::ivec3& cell) const noexcept {
-        return isActive[brickIndex(glm::min(cell / kBrickCells, bricks - 1))] != 0;
+        const glm::ivec3 brick(glm::uvec3(cell) / static_cast<uint32_t>(kBrickCells));
+        return isActive[brickIndex(glm::min(brick, bricks - 1))] != 0;
     }
     /// Inclusive.
     [[nodiscard]] glm::ivec3 lastNode(const glm::ivec3& brick) const noexcept {
@@ -62,12 +76,14 @@ struct FieldWindow {
     /// each node once.
     template <class Visit>
     void eachActiveRow(const Visit& visit) const {
-        for (const glm::ivec3& brick : active) {
-            const glm::ivec3 low = kBrickCells * brick, high = lastNode(brick);
-            for (int z = low.z; z <= high.z; ++z)
-                for (int y = low.y; y <= high.y; ++y)
-                    visit(glm::ivec3(low.x, y, z), index({low.x, y, z}), high.x - low.x + 1);
-        }
+        for (const glm::ivec3& brick : active)
+            eachRow({kBrickCells * brick, lastNode(brick)}, visit);
+    }
+    template <class Visit>
+    void eachRow(const NodeBox& box, const Visit& visit) const {
+        for (int z = box.low.z; z <= box.high.z; ++z)
+            for (int y = box.low.y; y <= box.high.y; ++y)
+                visit(glm::ivec3(box.low.x, y, z), index({box.low.x, y, z}), box.high.x - box.low.x + 1);
     }
 };
 
@@ -92,28 +108,16 @@ struct SculptZone {
 void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
                  double margin);
 
-/// Makes a window of the grid's nodes within `margin` voxels of a ball (object frame); keeps its memory.
+/// Makes a window of the nodes within `margin` voxels of a ball (object frame), of a grid as it was before
+/// the dab and as it is now, which may be the same; keeps its memory.
 /// Active are the bricks around the ball, and those with a node that may have its nearest place on the
 /// surface in the ball, now or after the dab: one that is not farther from the ball than from the surface.
 /// Under a flat face these are the bricks in a paraboloid, not in a cube. Returns the ball in the window.
 /// Throws Error where there would be more than kMostWindowNodes.
-SculptZone fillWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
-                      double margin);
-
-/// Gives the window that fillWindow made the values of a grid as it is now; `before` stays.
-void fillValues(FieldWindow& window, const FieldGrid& now);
+SculptZone fillWindow(FieldWindow& window, const FieldGrid& before, const FieldGrid& now,
+                      const glm::dvec3& centre, double radius, double margin);
 
 inline constexpr uint64_t kMostWindowNodes = uint64_t{1} << 27;
-
-/// Inclusive; empty where low > high.
-struct NodeBox {
-    glm::ivec3 low{1}, high{0};
-    [[nodiscard]] bool empty() const noexcept { return low.x > high.x; }
-    void include(const glm::ivec3& node) noexcept {
-        low = empty() ? node : glm::min(low, node);
-        high = glm::max(high, node);
-    }
-};
 
 /// Boxes, none of which reaches into two bricks, that hold all nodes whose value is not that of before.
 [[nodiscard]] std::vector<NodeBox> changedNodes(const FieldWindow& window);

@@ -3,7 +3,9 @@
 #include "haptics/shape/field/sculpt/closest_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace touchstone {
@@ -13,17 +15,26 @@ namespace {
 constexpr double kSteep = 0.1; // from 1: the gradient of a distance, away from its kinks
 constexpr double kRoom = 1.5;  // voxels: a nearest place is known to a voxel
 
-/// The same order within the window and at its border.
-template <class Visit>
-void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit) {
-    if (glm::all(glm::greaterThan(node, glm::ivec3(0))) && glm::all(glm::lessThan(node, window.size - 1))) {
+/// All neighbours lie in the window.
+bool hasAllNeighbours(const FieldWindow& window, const glm::ivec3& node) {
+    return glm::all(glm::greaterThan(node, glm::ivec3(0))) && glm::all(glm::lessThan(node, window.size - 1));
+}
+
+/// The same order within the window and at its border. Within it, leaves out the rows of three nodes of which
+/// matters(index of the first one) is false.
+template <class Visit, class Matters>
+void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit,
+                   const Matters& matters) {
+    if (hasAllNeighbours(window, node)) {
         const auto own = static_cast<ptrdiff_t>(window.index(node));
         const ptrdiff_t sy = window.step(1), sz = window.step(2);
         for (int z = -1; z <= 1; ++z)
-            for (int y = -1; y <= 1; ++y)
-                for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y) {
+                const auto row = static_cast<size_t>(own - 1 + y * sy + z * sz);
+                for (int x = -1; x <= 1 && matters(row); ++x)
                     if (x != 0 || y != 0 || z != 0)
-                        visit(node + glm::ivec3(x, y, z), static_cast<size_t>(own + x + y * sy + z * sz));
+                        visit(node + glm::ivec3(x, y, z), row + static_cast<size_t>(x + 1));
+            }
         return;
     }
     for (int z = -1; z <= 1; ++z)
@@ -34,6 +45,24 @@ void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visi
                     visit(at, window.index(at));
 }
 
+template <class Visit>
+void eachNeighbour(const FieldWindow& window, const glm::ivec3& node, const Visit& visit) {
+    eachNeighbour(window, node, visit, [](size_t) { return true; });
+}
+
+double squaredDistance(const glm::ivec3& node, const glm::dvec3& point) {
+    const glm::dvec3 way = glm::dvec3(node) - point;
+    return glm::dot(way, way);
+}
+
+constexpr Eight kSteps{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+
+Eight eightFrom(const std::vector<float>& values, size_t index) {
+    Eight eight;
+    std::memcpy(&eight, &values[index], sizeof eight);
+    return eight;
+}
+
 } // namespace
 
 std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone& zone,
@@ -42,17 +71,7 @@ std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone
     window_ = &window;
     zone_ = zone;
     reach_ = reach;
-    const size_t count = window.value.size();
-    state_.assign(count, Node::None);
-    pointOf_.resize(count);
-    distance_.resize(count);
-    window.eachActiveRow([&](const glm::ivec3&, size_t index, int nodes) {
-        std::fill_n(&state_[index], nodes, Node::Kept);
-        std::fill_n(&pointOf_[index], nodes, kNone);
-    });
-    points_.clear();
-    touched_.clear();
-    queue_ = {};
+    begin();
     if (!findNear())
         return {};
     open();
@@ -61,14 +80,36 @@ std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone
     return finish();
 }
 
-void DistanceRestorer::give(size_t node, const glm::dvec3& point) {
-    if (pointOf_[node] == kNone) {
+void DistanceRestorer::begin() {
+    const FieldWindow& window = *window_;
+    const size_t count = window.value.size();
+    state_.resize(count + 1); // handOn and seedKept read one beyond
+    pointOf_.resize(count);
+    distance_.resize(count + 1);
+    const auto voxel = static_cast<float>(window.voxel);
+    window.eachActiveRow([&](const glm::ivec3&, size_t index, int nodes) {
+        std::fill_n(&state_[index], nodes, Node::Kept);
+        const float* const value = &window.value[index];
+        float* const most = &distance_[index];
+        for (int i = 0; i < nodes; ++i)
+            most[i] = std::abs(value[i]) / voxel - kNearer;
+    });
+    for (const NodeBox& box : window.around)
+        window.eachRow(box, [&](const glm::ivec3&, size_t index, int nodes) {
+            std::fill_n(&state_[index], nodes, Node::None);
+        });
+    points_.clear();
+    touched_.clear();
+    queue_.clear();
+}
+
+void DistanceRestorer::give(size_t node, float distance, const glm::dvec3& point) {
+    if (state_[node] == Node::Given || state_[node] == Node::Reached) {
+        points_[pointOf_[node]] = point;
+    } else {
         pointOf_[node] = static_cast<uint32_t>(points_.size());
         points_.push_back(point);
-    } else {
-        points_[pointOf_[node]] = point;
     }
-    const float distance = state_[node] == Node::Kept ? keptDistance(node) : distance_[node];
     queue_.push({distance, static_cast<uint32_t>(node)});
 }
 
@@ -106,9 +147,64 @@ bool DistanceRestorer::findNear() {
         if (!keep)
             touched_.push_back(static_cast<uint32_t>(index));
         if (!isExact(index))
-            give(index, point);
+            give(index, distance_[index], point);
     }
     return true;
+}
+
+/// A bit for each node of a row that `open` may open, and for few others: it tests those of a brick at once,
+/// as floats with room for their rounding.
+uint32_t DistanceRestorer::mayOpen(const glm::ivec3& first, size_t index, int count) const {
+    const uint32_t all = (1u << count) - 1u;
+    if (count < kBrickCells)
+        return all;
+    constexpr float kRounded = 1.0f + 1e-5f;
+    const Eight before = eightFrom(window_->before, index), own = larger(before, -before);
+    const Eight value = eightFrom(window_->value, index);
+    const auto reach = static_cast<float>(zone_.radius + kRoom);
+    const glm::vec3 way(glm::dvec3(first) - zone_.centre);
+    const Eight x = way.x + kSteps;
+    const Eight squared = x * x + (way.y * way.y + way.z * way.z);
+    const Eight far = own * static_cast<float>(1.0 / window_->voxel) + reach;
+    // As floats not below these, values are not below the limit of `open`, either.
+    const Eight inside = Eight{} + static_cast<float>(reach_.inside * (1.0 - 5e-7));
+    const Eight outside = Eight{} + static_cast<float>(reach_.outside * (1.0 - 5e-7));
+    const uint32_t beyond = lanes(squared > kRounded * reach * reach);
+    uint32_t stays =
+        beyond & (lanes(own >= (value < 0.0f ? inside : outside)) | lanes(squared > kRounded * far * far));
+    if (exact_ != ExactSide::None) {
+        const uint32_t negative = lanes(value < 0.0f);
+        stays |= exact_ == ExactSide::Inside ? negative : ~negative & ((1u << kBrickCells) - 1u);
+    }
+    const bool isInner =
+        glm::all(glm::greaterThan(first, glm::ivec3(0))) &&
+        glm::all(glm::lessThan(first + glm::ivec3(kBrickCells - 1, 0, 0), window_->size - 1));
+    if (isInner && (all & ~stays) != 0)
+        stays |=
+            beyond & restsElsewhere(index, squared, before * static_cast<float>(1.0 / window_->voxel), way);
+    return all & ~stays;
+}
+
+/// Of nodes out of reach: whose nearest place before the dab is known, and out of reach, too. With s the
+/// length of the gradient g, w the way from the zone's centre and R the reach, |w - f g / s|^2 > R^2, or s A
+/// > B with A = w^2 + f^2 - R^2 and B = 2 f g w. Without a root, as A > 0: B < 0 or s^2 A^2 > B^2. What is
+/// rounded in A and B is less than 1e-5 of w^2 + f^2 + R^2.
+uint32_t DistanceRestorer::restsElsewhere(size_t index, Eight squared, Eight f, const glm::vec3& way) const {
+    constexpr float kRounded = 1e-4f;
+    constexpr auto kLeast = static_cast<float>((1.0 - kSteep) * (1.0 - kSteep)) + 1e-3f,
+                   kMost = static_cast<float>((1.0 + kSteep) * (1.0 + kSteep)) - 1e-3f;
+    const auto perTwo = static_cast<float>(0.5 / window_->voxel),
+               reach = static_cast<float>(zone_.radius + kRoom);
+    const auto slope = [&](size_t step) {
+        return (eightFrom(window_->before, index + step) - eightFrom(window_->before, index - step)) * perTwo;
+    };
+    const Eight x = slope(1), y = slope(static_cast<size_t>(window_->step(1))),
+                z = slope(static_cast<size_t>(window_->step(2)));
+    const Eight steep = x * x + y * y + z * z;
+    const Eight a = (squared + f * f) * (1.0f - kRounded) - reach * reach * (1.0f + kRounded);
+    const Eight b = 2.0f * f * (x * (way.x + kSteps) + y * way.y + z * way.z);
+    return lanes(steep > kLeast) & lanes(steep < kMost) & lanes(a > 0.0f) &
+           (lanes(b < 0.0f) | lanes(a * a * steep > b * b));
 }
 
 /// Forgets the distances of nodes in the zone, and of those whose nearest place may be in it: f g away
@@ -132,7 +228,8 @@ void DistanceRestorer::open() {
                glm::distance(glm::dvec3(node) - f * slope / steep, zone_.centre) <= reach;
     };
     window.eachActiveRow([&](const glm::ivec3& first, size_t begin, int count) {
-        for (int i = 0; i < count; ++i) {
+        for (uint32_t nodes = mayOpen(first, begin, count); nodes != 0; nodes &= nodes - 1) {
+            const int i = std::countr_zero(nodes);
             const size_t index = begin + static_cast<size_t>(i);
             if (state_[index] == Node::Near || isExact(index) ||
                 !mayChange(first + glm::ivec3(i, 0, 0), index))
@@ -149,36 +246,51 @@ void DistanceRestorer::open() {
 void DistanceRestorer::seedKept() {
     FieldWindow& window = *window_;
     const ClosestPoints surface(window);
+    // Most rows have none: a byte below 2 leaves its highest bit where 2 is taken away, as none is above 127.
+    static_assert(static_cast<int>(Node::Kept) == 1 && static_cast<int>(Node::Given) == 2);
+    const auto hasKept = [&](size_t row) {
+        uint32_t states;
+        std::memcpy(&states, &state_[row], sizeof states);
+        return (((states & 0xffffffu) - 0x020202u) & 0x808080u) != 0;
+    };
     for (size_t i = 0, count = touched_.size(); i < count; ++i) {
         const uint32_t node = touched_[i];
         if (state_[node] != Node::Open && state_[node] != Node::Reached)
             continue;
         const glm::ivec3 place = window.nodeAt(node);
-        eachNeighbour(window, place, [&](const glm::ivec3& at, size_t other) {
-            const bool beyond = state_[other] == Node::None;
-            if (!beyond && (state_[other] != Node::Kept || pointOf_[other] != kNone))
-                return;
-            const bool inside = negative(other);
-            const double f = static_cast<double>(window.value[other]) / window.voxel;
-            const glm::dvec3 slope = surface.gradientBefore(at);
-            const double steep = glm::length(slope);
-            if (std::abs(f) >= limit(inside) * (1.0 - 1e-6) || std::abs(steep - 1.0) > kSteep)
-                return;
-            // A place that is not on the surface would be handed on, and is nearer than any that is.
-            const std::optional<glm::dvec3> point = surface.onSurface(glm::dvec3(at) - f * slope / steep);
-            if (!point) {
-                // A bound, by the triangle inequality.
-                if (negative(node) == inside)
-                    distance_[node] = std::min(
-                        distance_[node],
-                        static_cast<float>(std::abs(f) + glm::distance(glm::dvec3(at), glm::dvec3(place))));
-                return;
-            }
-            if (!beyond)
-                give(other, *point);
-            else if (negative(node) == inside)
-                offer(node, place, *point);
-        });
+        eachNeighbour(
+            window, place,
+            [&](const glm::ivec3& at, size_t other) {
+                const bool beyond = state_[other] == Node::None;
+                if (!beyond && state_[other] != Node::Kept)
+                    return;
+                const bool inside = negative(other);
+                const double f = static_cast<double>(window.value[other]) / window.voxel;
+                if (std::abs(f) >= limit(inside) * (1.0 - 1e-6))
+                    return;
+                const glm::dvec3 slope = surface.gradientBefore(at);
+                const double steep = glm::length(slope);
+                if (std::abs(steep - 1.0) > kSteep)
+                    return;
+                // A place that is not on the surface would be handed on, and is nearer than any that is.
+                const std::optional<glm::dvec3> point = surface.onSurface(glm::dvec3(at) - f * slope / steep);
+                if (!point) {
+                    // A bound, by the triangle inequality.
+                    if (negative(node) == inside)
+                        distance_[node] =
+                            std::min(distance_[node],
+                                     static_cast<float>(std::abs(f) +
+                                                        glm::distance(glm::dvec3(at), glm::dvec3(place))));
+                    return;
+                }
+                if (!beyond) {
+                    give(other, keptDistance(other), *point);
+                    state_[other] = Node::Given;
+                } else if (negative(node) == inside) {
+                    offer(node, squaredDistance(place, *point), *point);
+                }
+            },
+            hasKept);
     }
 }
 
@@ -187,51 +299,78 @@ bool DistanceRestorer::inReach(const glm::dvec3& point) const {
     return glm::dot(way, way) <= (zone_.radius + kRoom) * (zone_.radius + kRoom);
 }
 
-void DistanceRestorer::offer(size_t to, const glm::ivec3& at, const glm::dvec3& point) {
-    const bool isKept = state_[to] == Node::Kept;
-    if (isKept && !inReach(point))
-        return; // the surface has not changed there
-    const float most = isKept ? keptDistance(to) - kNearer : distance_[to];
-    const glm::dvec3 way = glm::dvec3(at) - point;
-    // Most neighbours have a nearer place already: no root, with room for its rounding.
-    if (glm::dot(way, way) > 1.000001 * static_cast<double>(most) * static_cast<double>(most) ||
-        !(most > 0.0f))
-        return;
+/// Of a place at the root of `squared` voxels.
+void DistanceRestorer::offer(size_t to, double squared, const glm::dvec3& point) {
     // As floats: a double below a float that it rounds to would be offered for ever.
-    const auto offered = static_cast<float>(glm::distance(glm::dvec3(at), point));
-    if (!(offered < most))
+    const auto offered = static_cast<float>(std::sqrt(squared));
+    if (!(offered < distance_[to]))
         return;
-    if (isKept)
+    if (state_[to] == Node::Kept || state_[to] == Node::Given)
         touched_.push_back(static_cast<uint32_t>(to));
+    give(to, offered, point);
     state_[to] = Node::Reached;
     distance_[to] = offered;
-    give(to, point);
 }
 
 /// Its nearest place, once no other node will hand on a nearer one.
-glm::dvec3 DistanceRestorer::settled(size_t node) {
+glm::dvec3 DistanceRestorer::settled(size_t node, const glm::ivec3& place) {
     glm::dvec3& point = points_[pointOf_[node]];
     if (state_[node] == Node::Reached) {
-        const glm::dvec3 at(window_->nodeAt(node));
+        const glm::dvec3 at(place);
         point = ClosestPoints(*window_).slid(at, point);
         distance_[node] = static_cast<float>(glm::distance(at, point));
     }
     return point;
 }
 
+/// Offers a node's nearest place to its neighbours on the same side.
+void DistanceRestorer::handOn(const glm::ivec3& place, size_t node, const glm::dvec3& point) {
+    const FieldWindow& window = *window_;
+    const bool inside = negative(node), isNew = inReach(point); // else the surface has not changed there
+    const auto offerTo = [&](size_t other, double squared) {
+        const Node state = state_[other];
+        if (state != Node::Near && state != Node::None && negative(other) == inside &&
+            (isNew || state == Node::Open || state == Node::Reached))
+            offer(other, squared, point);
+    };
+    if (!hasAllNeighbours(window, place)) {
+        eachNeighbour(window, place, [&](const glm::ivec3& at, size_t other) {
+            offerTo(other, squaredDistance(at, point));
+        });
+        return;
+    }
+    // The three of a row at once, squaredDistance as it is above. Most have a nearer place already: no root,
+    // with room for its rounding.
+    using FourFloats [[gnu::vector_size(16)]] = float;
+    const glm::dvec3 at(place);
+    const Four x = Four{at.x - 1.0, at.x, at.x + 1.0, INFINITY} - point.x, xx = x * x;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y) {
+            const double wayY = at.y + y - point.y, wayZ = at.z + z - point.z;
+            const Four squared = xx + wayY * wayY + wayZ * wayZ;
+            const size_t row = node - 1 + static_cast<size_t>(y * window.step(1) + z * window.step(2));
+            FourFloats distances;
+            std::memcpy(&distances, &distance_[row], sizeof distances);
+            const Four most = __builtin_convertvector(distances, Four);
+            uint32_t nearer = lanes(squared <= 1.000001 * most * most) & 7u;
+            if (y == 0 && z == 0)
+                nearer &= ~2u; // itself
+            for (; nearer != 0; nearer &= nearer - 1) {
+                const auto i = static_cast<size_t>(std::countr_zero(nearer));
+                offerTo(row + i, squared[i]);
+            }
+        }
+}
+
 void DistanceRestorer::march() {
     while (!queue_.empty()) {
-        const Entry entry = queue_.top();
-        queue_.pop();
-        if (state_[entry.node] != Node::Kept && entry.distance > distance_[entry.node])
+        const NodeQueue::Entry entry = queue_.pop();
+        if (state_[entry.node] != Node::Given && entry.distance > distance_[entry.node])
             continue; // a nearer place was found since
-        const bool inside = negative(entry.node);
-        const glm::dvec3 point = settled(entry.node);
-        eachNeighbour(*window_, window_->nodeAt(entry.node), [&](const glm::ivec3& at, size_t other) {
-            if (state_[other] != Node::Near && state_[other] != Node::None && negative(other) == inside &&
-                !isExact(other))
-                offer(other, at, point);
-        });
+        const glm::ivec3 place = window_->nodeAt(entry.node);
+        const glm::dvec3 point = settled(entry.node, place);
+        if (!isExact(entry.node)) // nor are its neighbours on this side
+            handOn(place, entry.node, point);
     }
 }
 

@@ -2,10 +2,11 @@
 // From changed values back to distances, in the part of a window that the change reaches.
 
 #include "haptics/shape/field/sculpt/field_window.h"
+#include "haptics/shape/field/sculpt/node_queue.h"
+#include "haptics/shape/field/vectors.h"
 
 #include <cmath>
 #include <cstdint>
-#include <queue>
 #include <vector>
 
 namespace touchstone {
@@ -31,23 +32,21 @@ class DistanceRestorer {
                              ExactSide exact = ExactSide::None);
 
   private:
-    static constexpr float kNearer = 0.02f;                        // voxels
-    enum class Node : uint8_t { None, Kept, Near, Open, Reached }; ///< None: of no active brick
-    struct Entry {
-        float distance;
-        uint32_t node;
-        bool operator<(const Entry& other) const { // the queue's top is its largest
-            return distance != other.distance ? distance > other.distance : node > other.node;
-        }
-    };
+    static constexpr float kNearer = 0.02f; // voxels
+    /// None: of no active brick. Given: kept, and handed on. Given and Reached have a point.
+    enum class Node : uint8_t { None, Kept, Given, Near, Open, Reached };
+    void begin();
     [[nodiscard]] bool findNear();
     void open();
+    [[nodiscard]] uint32_t mayOpen(const glm::ivec3& first, size_t index, int count) const;
+    [[nodiscard]] uint32_t restsElsewhere(size_t index, Eight squared, Eight f, const glm::vec3& way) const;
     void seedKept();
     void march();
-    void offer(size_t to, const glm::ivec3& at, const glm::dvec3& point);
+    void handOn(const glm::ivec3& place, size_t node, const glm::dvec3& point);
+    void offer(size_t to, double squared, const glm::dvec3& point);
     [[nodiscard]] bool inReach(const glm::dvec3& point) const; ///< of the zone
-    void give(size_t node, const glm::dvec3& point);
-    [[nodiscard]] glm::dvec3 settled(size_t node);
+    void give(size_t node, float distance, const glm::dvec3& point);
+    [[nodiscard]] glm::dvec3 settled(size_t node, const glm::ivec3& place);
     [[nodiscard]] bool isExact(size_t node) const {
         return exact_ == (negative(node) ? ExactSide::Inside : ExactSide::Outside);
     }
@@ -65,13 +64,13 @@ class DistanceRestorer {
     SculptZone zone_;
     DistanceReach reach_;
     ExactSide exact_ = ExactSide::None;
-    std::vector<Node> state_;
-    std::vector<float> distance_;    ///< voxels, not negative
-    std::vector<uint32_t> pointOf_;  ///< index in points_; kNone
+    std::vector<Node> state_; ///< of nodes of active bricks and those around, as are the next
+    /// Voxels, not negative; of kept nodes what is less than their distance by kNearer. None: anything.
+    std::vector<float> distance_;
+    std::vector<uint32_t> pointOf_;  ///< index in points_, where there is a point
     std::vector<glm::dvec3> points_; ///< on the surface
     std::vector<uint32_t> touched_;  ///< nodes with a new distance
-    std::priority_queue<Entry> queue_;
-    static constexpr uint32_t kNone = 0xffffffffu;
+    NodeQueue queue_;
 };
 
 } // namespace touchstone

@@ -117,7 +117,7 @@ DabReport Sculptor::applyOnce(const Dab& dab) {
     const double radius = changedRadius(*base_, dab);
     if (ballMisses(*base_, dab.centre, radius))
         return {};
-    const SculptZone zone = fillWindow(window_, *grid(), dab.centre, radius, margin());
+    const SculptZone zone = fillWindow(window_, *grid(), *grid(), dab.centre, radius, margin());
     const ExactSide exact = applyTool(window_, *base_, dab, zone);
     return committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact));
 }
@@ -170,7 +170,7 @@ DabReport Sculptor::shape(const Dab& dab) {
         return {};
     const std::shared_ptr<const FieldGrid> now = grid();
     Shaped shaped = joined(dab);
-    const SculptZone zone = fillWindow(window_, *now, dab.centre, radius, margin());
+    const SculptZone zone = fillWindow(window_, *now, *now, dab.centre, radius, margin());
     shaped.exact = applyTool(window_, *base_, dab, zone);
     const std::vector<NodeBox> changed = changedNodes(window_);
     if (!changed.empty())
@@ -183,8 +183,7 @@ DabReport Sculptor::restore() {
         return {};
     const Shaped shaped = *std::exchange(shaped_, std::nullopt);
     const std::shared_ptr<const FieldGrid> now = grid();
-    const SculptZone zone = fillWindow(window_, *shaped.before, shaped.centre, shaped.radius, margin());
-    fillValues(window_, *now);
+    const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
     DabReport report =
         committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact));
     report.removed = 0.0; // `shape` has told it
@@ -255,8 +254,14 @@ bool Sculptor::commitBrick(const glm::ivec3& brick) {
     // The last node of a row belongs to the next brick, unless the window ends there.
     const auto copy = [&](const glm::ivec3& from, int end) {
         const glm::ivec3 node = first + from - window_.first;
-        if (from.x <= end && window_.cellIsActive(node))
-            std::copy_n(&window_.value[window_.index(node)], end - from.x + 1, &after[brickNode(from)]);
+        if (from.x > end || !window_.cellIsActive(node))
+            return;
+        const float* const values = &window_.value[window_.index(node)];
+        float* const to = &after[brickNode(from)];
+        if (const int count = end - from.x + 1; count == kBrickCells)
+            std::memcpy(to, values, kBrickCells * sizeof(float)); // no call, as the length is known
+        else
+            std::copy_n(values, count, to);
     };
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y) {
