@@ -1,6 +1,7 @@
 // Sculpted fields against closed forms, and what undo and determinism promise.
 
 #include "engine/core/error.h"
+#include "haptics/shape/field/sculpt/node_queue.h"
 #include "haptics/shape/field/sculpt/sculptor.h"
 #include "tests/support/field_nodes.h"
 #include "tests/unit/haptics/field_bench.h"
@@ -8,10 +9,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
+#include <queue>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace touchstone::test {
@@ -132,6 +137,85 @@ TEST(Sculptor, AddsABallAndMeasuresDistancesFromBothSides) {
     const FieldShape shape(sculptor.grid());
     EXPECT_NEAR(shape.value({0.0, 0.42, 0.0}), -0.08, 0.5 * voxel);
     EXPECT_NEAR(shape.value({0.0, 0.36, 0.0}), -std::hypot(0.1, 0.04), voxel);
+}
+
+/// Nodes at the faces of bricks are kept by each of them that was edited: one value, or the field has a
+/// crack.
+size_t cracksIn(const FieldGrid& grid) {
+    size_t cracks = 0;
+    std::array<float, kNodesInBrick> own, next;
+    for (int z = 0; z < grid.bricks().z; ++z)
+        for (int y = 0; y < grid.bricks().y; ++y)
+            for (int x = 0; x < grid.bricks().x; ++x) {
+                const glm::ivec3 brick(x, y, z);
+                grid.copyBrick(brick, own);
+                for (int axis = 0; axis < 3; ++axis) {
+                    glm::ivec3 step(0), low(0);
+                    step[axis] = 1;
+                    low[axis] = kBrickCells;
+                    if (!glm::all(glm::lessThan(brick + step, grid.bricks())))
+                        continue;
+                    grid.copyBrick(brick + step, next);
+                    for (int b = 0; b <= kBrickCells; ++b)
+                        for (int a = 0; a <= kBrickCells; ++a) {
+                            glm::ivec3 at = low;
+                            at[(axis + 1) % 3] = a;
+                            at[(axis + 2) % 3] = b;
+                            cracks += own[brickNode(at)] != next[brickNode(at - kBrickCells * step)] ? 1 : 0;
+                        }
+                }
+            }
+    return cracks;
+}
+
+/// What a dab's shape changes and its restoration puts back to what was there before.
+TEST(Sculptor, LeavesNoCracksBetweenBricksWhereDistancesFollowShapes) {
+    const auto base = gridOf(block, 80);
+    const double voxel = cubeOf(80).voxel;
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> within(-1.0, 1.0);
+    for (const SculptTool tool : {SculptTool::Add, SculptTool::Carve})
+        for (int run = 0; run < 12; ++run) {
+            Sculptor sculptor(base);
+            glm::dvec3 place(0.4 * within(random), 0.4 * within(random), 0.4 * within(random));
+            place[run % 3] = 0.4;
+            const glm::dvec3 way(within(random), within(random), within(random));
+            for (int i = 0; i < 12; ++i) {
+                sculptor.shape({.tool = tool,
+                                .centre = place + 2.0 * voxel * glm::dvec3(within(random)),
+                                .radius = 8.0 * voxel});
+                place += 3.0 * voxel * way;
+                if (i % 3 != 1)
+                    sculptor.restore();
+                ASSERT_EQ(cracksIn(*sculptor.grid()), 0u) << run << ", dab " << i;
+            }
+        }
+}
+
+TEST(NodeQueue, GivesNodesInTheOrderOfOneHeap) {
+    std::mt19937_64 random(5);
+    NodeQueue queue;
+    for (int run = 0; run < 20; ++run) {
+        using Entry = std::pair<float, uint32_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> truth;
+        queue.clear();
+        const double reach = run % 4 == 3 ? 200.0 : 8.0; // voxels: beyond the last heap's, too
+        for (int i = 0; i < 4000; ++i) {
+            const bool pushes = truth.empty() || random() % 5 < 3;
+            if (pushes) {
+                // Some are equal, some nearer than what was popped.
+                const auto distance = static_cast<float>(reach * static_cast<double>(random() % 512) / 512.0);
+                const auto node = static_cast<uint32_t>(random() % 1000);
+                queue.push({distance, node});
+                truth.emplace(distance, node);
+            } else {
+                const NodeQueue::Entry entry = queue.pop();
+                ASSERT_EQ(std::pair(entry.distance, entry.node), truth.top());
+                truth.pop();
+            }
+            ASSERT_EQ(queue.empty(), truth.empty());
+        }
+    }
 }
 
 TEST(Sculptor, SmoothsBumpsAwayAndKeepsADistance) {

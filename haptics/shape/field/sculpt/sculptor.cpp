@@ -184,8 +184,12 @@ DabReport Sculptor::restore() {
     const Shaped shaped = *std::exchange(shaped_, std::nullopt);
     const std::shared_ptr<const FieldGrid> now = grid();
     const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
-    DabReport report =
-        committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact));
+    // Also what the shape changed and the distances put back: bricks that share a node keep one value.
+    std::vector<NodeBox> changed = changedNodes(window_);
+    const std::vector<NodeBox> restored =
+        restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact);
+    changed.insert(changed.end(), restored.begin(), restored.end());
+    DabReport report = committed(zone, changed);
     report.removed = 0.0; // `shape` has told it
     return report;
 }
