@@ -20,7 +20,7 @@ constexpr size_t kMaxParts = 8;
 constexpr double kSampleTime = 1e-3; ///< s; at 10 m/s² the error of a chord is 1 µm
 constexpr double kMaxSamples = 20000.0;
 constexpr int kSide = 24; ///< rays per side of the view that measure visibility
-/// Poses of the other parts that are boxed. Beside parts that deform not fewer than these have boxes for.
+/// Poses of the other parts that are boxed; where one deforms at least as many as it may have boxes for.
 constexpr size_t kFewestBoxes = 16, kFewestDeforming = 64, kBoxes = 256;
 
 /// By node: the lowest one at or above it that the animation moves itself; -1: none.

@@ -23,9 +23,9 @@ constexpr double kReachOfModel = 0.25;  ///< of the diagonal: no curve reaches f
 constexpr double kSoftTime = 0.01;      ///< s over which a hand turns to another direction, at least
 constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in order
 constexpr std::array kEdgeSizes{1.0, 0.5, 0.25, 0.15};
-constexpr size_t kRefusalsOfSize = 4;  ///< by a part that deforms, of paths of one size
+constexpr size_t kRefusalsOfSize = 3;  ///< by a part that deforms, of paths of one size
 constexpr size_t kRefusalsOnPoint = 8; ///< of paths on one point
-constexpr size_t kMostRefusals = 200;  ///< of a stroke, by all parts
+constexpr size_t kMostRefusals = 256;  ///< by all parts, without jumps and with them
 
 /// On a part that deforms, where no hop of the tour holds.
 constexpr std::string_view kInsteadOfTour = "zigzag";
@@ -233,8 +233,8 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
     const std::vector<MovingPart> parts = movingParts(scene, deviceFromScene, request);
     if (parts.empty())
         return layKind(triangles, {}, *kind, request, told);
-    size_t refusals = 0;
-    for (const bool mayJump : {false, true})
+    for (const bool mayJump : {false, true}) {
+        size_t refusals = 0;
         for (const MovingPart& part : parts) {
             if (mayJump && part.deforming == nullptr)
                 continue;
@@ -253,6 +253,7 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
                 continue; // the others sweep over all of it, or it moves too far
             }
         }
+    }
     throw noPlaceToPress(triangles);
 }
 

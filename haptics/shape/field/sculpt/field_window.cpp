@@ -99,7 +99,7 @@ void fillRows(const FieldWindow& window, const FieldGrid& grid, const NodeBox& b
                        layer);
 }
 
-/// Of the same bytes; false also where only more than a brick's row would tell.
+/// Of the same bytes; false also for rows that are not 8 nodes long.
 bool sameRow(const float* a, const float* b, int count) {
     return count == kBrickCells && std::memcmp(a, b, kBrickCells * sizeof(float)) == 0;
 }
@@ -155,7 +155,7 @@ SculptZone fillWindow(FieldWindow& window, const FieldGrid& before, const FieldG
     std::vector<NodeBox> filled = window.around;
     for (const glm::ivec3& brick : window.active)
         filled.push_back({kBrickCells * brick, window.lastNode(brick)});
-    // Of nodes that two bricks keep those of the former one count, as in FieldGrid::copyNodes.
+    // Where two bricks keep a node the former one's value counts, as in FieldGrid::copyNodes.
     std::ranges::sort(filled, std::greater(), [](const NodeBox& box) { return box.low.x / kBrickCells; });
     for (const NodeBox& box : filled) {
         fillRows(window, before, box, window.before);

@@ -152,8 +152,8 @@ bool DistanceRestorer::findNear() {
     return true;
 }
 
-/// A bit for each node of a row that `open` may open, and for few others: it tests those of a brick at once,
-/// as floats with room for their rounding.
+/// A bit for each node of a row that `open` may open, and for few others: the eight nodes of a brick's row
+/// are tested at once, as floats with room for their rounding.
 uint32_t DistanceRestorer::mayOpen(const glm::ivec3& first, size_t index, int count) const {
     const uint32_t all = (1u << count) - 1u;
     if (count < kBrickCells)
@@ -187,8 +187,8 @@ uint32_t DistanceRestorer::mayOpen(const glm::ivec3& first, size_t index, int co
 
 /// Of nodes out of reach: whose nearest place before the dab is known, and out of reach, too. With s the
 /// length of the gradient g, w the way from the zone's centre and R the reach, |w - f g / s|^2 > R^2, or s A
-/// > B with A = w^2 + f^2 - R^2 and B = 2 f g w. Without a root, as A > 0: B < 0 or s^2 A^2 > B^2. What is
-/// rounded in A and B is less than 1e-5 of w^2 + f^2 + R^2.
+/// > B with A = w^2 + f^2 - R^2 and B = 2 f g w. Without a root, as A > 0: B < 0 or s^2 A^2 > B^2. The
+/// rounding errors of A and B are below 1e-5 of w^2 + f^2 + R^2.
 uint32_t DistanceRestorer::restsElsewhere(size_t index, Eight squared, Eight f, const glm::vec3& way) const {
     constexpr float kRounded = 1e-4f;
     constexpr auto kLeast = static_cast<float>((1.0 - kSteep) * (1.0 - kSteep)) + 1e-3f,
@@ -246,7 +246,7 @@ void DistanceRestorer::open() {
 void DistanceRestorer::seedKept() {
     FieldWindow& window = *window_;
     const ClosestPoints surface(window);
-    // Most rows have none: a byte below 2 leaves its highest bit where 2 is taken away, as none is above 127.
+    // Most rows have none. Subtracting 2 sets the highest bit of a byte below 2, as none is above 127.
     static_assert(static_cast<int>(Node::Kept) == 1 && static_cast<int>(Node::Given) == 2);
     const auto hasKept = [&](size_t row) {
         uint32_t states;

@@ -64,8 +64,8 @@ class DistanceRestorer {
     SculptZone zone_;
     DistanceReach reach_;
     ExactSide exact_ = ExactSide::None;
-    std::vector<Node> state_; ///< of nodes of active bricks and those around, as are the next
-    /// Voxels, not negative; of kept nodes what is less than their distance by kNearer. None: anything.
+    std::vector<Node> state_; ///< of nodes of active bricks and those around
+    /// Voxels, of nodes of active bricks; of kept ones their distance less kNearer, which may be negative.
     std::vector<float> distance_;
     std::vector<uint32_t> pointOf_;  ///< index in points_, where there is a point
     std::vector<glm::dvec3> points_; ///< on the surface

@@ -184,7 +184,8 @@ DabReport Sculptor::restore() {
     const Shaped shaped = *std::exchange(shaped_, std::nullopt);
     const std::shared_ptr<const FieldGrid> now = grid();
     const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
-    // Also what the shape changed and the distances put back: bricks that share a node keep one value.
+    // Nodes that the shape changed and the restoration puts back are committed, too: else bricks that share
+    // such a node keep two values.
     std::vector<NodeBox> changed = changedNodes(window_);
     const std::vector<NodeBox> restored =
         restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact);

@@ -19,7 +19,7 @@ namespace touchstone {
 struct DabReport {
     double removed = 0.0; ///< object units cubed; negative where the solid grew
     size_t bricks = 0;    ///< that were replaced, also those of colours
-    Bounds changed;       ///< of nodes whose value changed, object frame
+    Bounds changed;       ///< of nodes whose value may have changed, object frame
 };
 
 /// Applies dabs to a field and keeps every brick that they replace. Bricks are never written to: each grid
