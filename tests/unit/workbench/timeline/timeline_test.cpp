@@ -152,7 +152,7 @@ TEST_F(TimelineTest, SegmentsCoverItAndBeginAtCheckpoints) {
 /// Edits of the scene begin no segment before the bodies that belong to them; those of a scene without bodies
 /// do, also where the scene before had some.
 TEST_F(TimelineTest, EditsBeginSegmentsWhereTheirBodiesAre) {
-    std::vector<RecordedItem> items{RecordedSettings{1, {}}, RecordedScene{.number = 1},
+    std::vector<RecordedItem> items{RecordedSettings{1, {}}, RecordedScene{1, {}},
                                     TouchCheckpoint{.scene = 1}, RecordedBodies{}};
     double time = 0.0;
     const auto ticksOn = [&] {
@@ -160,17 +160,17 @@ TEST_F(TimelineTest, EditsBeginSegmentsWhereTheirBodiesAre) {
         time += 1.2;
     };
     const auto edit = [&](uint32_t root, uint32_t number, bool bodies) {
-        items.emplace_back(RecordedSculpt{.scene = number, .root = root});
+        items.emplace_back(RecordedSculpt{.scene = number, .root = root, .entries = {}});
         const auto tick = static_cast<uint64_t>(1000.0 * time + 0.5);
         items.emplace_back(TouchCheckpoint{.tick = tick, .scene = number});
         if (bodies)
-            items.emplace_back(RecordedBodies{.tick = tick});
+            items.emplace_back(RecordedBodies{tick, {}});
         ticksOn();
     };
     ticksOn();
     edit(1, 2, true);
     edit(1, 3, false);
-    items.emplace_back(RecordedScene{.number = 4});
+    items.emplace_back(RecordedScene{4, {}});
     items.emplace_back(TouchCheckpoint{.tick = 3600, .scene = 4});
     ticksOn();
     edit(4, 5, false);
