@@ -23,21 +23,20 @@ constexpr double kReachOfModel = 0.25;  ///< of the diagonal: no curve reaches f
 constexpr double kSoftTime = 0.01;      ///< s over which a hand turns to another direction, at least
 constexpr std::array kSizes{1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1, 0.05}; ///< of its full size, tried in order
 constexpr std::array kEdgeSizes{1.0, 0.5, 0.25, 0.15};
-constexpr size_t kRefusalsOfSize = 3;  ///< by a part that deforms, of paths of one size
-constexpr size_t kRefusalsOnPoint = 8; ///< of paths on one point
-constexpr size_t kMostRefusals = 256;  ///< by all parts, without jumps and with them
+constexpr size_t kMostCarried = 24; ///< paths on a part that deforms
 
 /// On a part that deforms, where no hop of the tour holds.
 constexpr std::string_view kInsteadOfTour = "zigzag";
 
-/// Carries paths until as many are refused as it allows: each takes time, up to a second.
+/// Carries paths with a part that deforms, each of which takes up to a second, and gives up after some.
 class Carrier {
   public:
-    explicit Carrier(const CarryPath& carry) : carry_(carry) {}
-    void allow(size_t refusals) { left_ = refusals; }
-    [[nodiscard]] bool gaveUp() const { return carry_ && left_ == 0; }
+    /// Empty: paths stay as they are.
+    explicit Carrier(CarryPath carry) : carry_(std::move(carry)) {}
+    [[nodiscard]] bool moves() const { return carry_ != nullptr; }
+    [[nodiscard]] bool gaveUp() const { return moves() && left_ == 0; }
     [[nodiscard]] std::optional<StrokePath> carried(const StrokePath& path, double depth) {
-        if (!carry_)
+        if (!moves())
             return path;
         if (left_ == 0)
             return std::nullopt;
@@ -46,8 +45,8 @@ class Carrier {
     }
 
   private:
-    const CarryPath& carry_;
-    size_t left_ = 0;
+    CarryPath carry_;
+    size_t left_ = kMostCarried;
 };
 
 /// The model that a stroke is laid on.
@@ -61,21 +60,16 @@ struct Ground {
 /// The path along `curve` that keeps to its depth over `near`; nullopt if none does with any hover.
 std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near, const StrokeKind& kind,
                                const LaidCurve& curve, StrokeTold told) {
-    bool refused = false;
     for (const double hover : kHovers) {
         told.hover = hover;
         StrokeMotion motion(curve, told.depth + hover);
         kind.move(motion, curve, told);
         StrokePath path = motion.finish(curve.at(0.0, told.depth));
         const glm::dvec3 start = curve.at(0.0, told.depth + hover);
-        if (refused && hover != kHovers.back())
-            continue;
-        if (!strokeHolds(near, path, told.depth, ground.keepOut) ||
-            maybeInside(ground.triangles, start, glm::normalize(start - curve.at(0.0, 0.0))))
-            continue;
-        if (auto carried = ground.carrier.carried(path, told.depth))
-            return carried;
-        refused = true; // by the way that the surface moves, seldom for the hover: the least is tried, too
+        if (strokeHolds(near, path, told.depth, ground.keepOut) &&
+            !maybeInside(ground.triangles, start, glm::normalize(start - curve.at(0.0, 0.0))))
+            if (auto carried = ground.carrier.carried(path, told.depth))
+                return carried;
     }
     return std::nullopt;
 }
@@ -83,7 +77,6 @@ std::optional<StrokePath> held(const Ground& ground, const TriangleSource& near,
 /// Over the sharpest edge with room on both sides.
 std::optional<StrokePath> laidAcrossEdge(const Ground& ground, const StrokeKind& kind,
                                          const glm::dvec3& front, double reach, const StrokeTold& told) {
-    ground.carrier.allow(kRefusalsOfSize * kEdgeSizes.size());
     for (const EdgeSite& edge : sharpestEdges(ground.triangles, ground.bounds, front)) {
         const std::vector<SurfaceTriangle> around =
             trianglesNear(ground.triangles, edge.point, 2.0 * (reach + told.depth));
@@ -108,7 +101,8 @@ std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& ki
     for (const PressPlace& place : pressPlaces(ground.triangles, ground.bounds, front))
         places.push_back(place);
     std::optional<StrokePath> path;
-    ground.carrier.allow(kRefusalsOnPoint);
+    if (ground.carrier.gaveUp())
+        return path;
     for (const bool anywhere : {false, true}) {
         PressPlace last;
         (void)firstPress(ground.triangles, places, kHovers[0], told.depth,
@@ -144,7 +138,6 @@ std::optional<StrokePath> laid(const Ground& ground, const StrokeKind& kind, con
     const double soft = std::max(told.depth, kSoftTime * told.speed);
     std::vector<std::vector<SurfaceTriangle>> around(sites.size());
     for (const double size : reach > 0.0 ? std::span<const double>(kSizes) : std::span<const double>()) {
-        carrier.allow(kRefusalsOfSize);
         for (size_t i = 0; i < sites.size() && !carrier.gaveUp(); ++i) {
             const StrokeSite& site = sites[i];
             if (around[i].empty())
@@ -171,17 +164,19 @@ double withinRange(double asked, double own, double least, double most, const ch
 }
 
 StrokePath layKind(const TriangleSource& triangles, std::span<const Bounds> keepOut, const StrokeKind& kind,
-                   const StrokeRequest& request, const StrokeTold& told, const CarryPath& carry = {}) {
+                   const StrokeRequest& request, const StrokeTold& told, Carrier& carrier) {
     if (kind.move == nullptr)
         try {
+            CarryPath carry;
+            if (carrier.moves())
+                carry = [&](const StrokePath& path, double depth) { return carrier.carried(path, depth); };
             return strokeOver(triangles, {.speed = told.speed, .depth = told.depth, .front = request.front},
                               keepOut, carry);
         } catch (const Error&) {
-            if (!carry)
+            if (!carrier.moves())
                 throw;
-            return layKind(triangles, keepOut, *findKind(kInsteadOfTour), request, told, carry);
+            return layKind(triangles, keepOut, *findKind(kInsteadOfTour), request, told, carrier);
         }
-    Carrier carrier(carry);
     const Ground ground{triangles, boundsOf(triangles), keepOut, carrier};
     const StrokeTold allowed{told.speed, std::min(told.depth, kDeepestOfModel * ground.bounds.diagonal())};
     if (allowed.depth >= kLeastDepth)
@@ -231,35 +226,32 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
     const auto [kind, told] = understood(request);
     const TriangleSource triangles = trianglesOf(scene, deviceFromScene);
     const std::vector<MovingPart> parts = movingParts(scene, deviceFromScene, request);
+    Carrier stays({});
     if (parts.empty())
-        return layKind(triangles, {}, *kind, request, told);
-    for (const bool mayJump : {false, true}) {
-        size_t refusals = 0;
+        return layKind(triangles, {}, *kind, request, told, stays);
+    for (const bool mayJump : {false, true})
         for (const MovingPart& part : parts) {
             if (mayJump && part.deforming == nullptr)
                 continue;
             try {
-                CarryPath carry;
-                if (part.deforming != nullptr)
-                    carry = [&](const StrokePath& path, double depth) {
-                        if (refusals++ >= kMostRefusals)
-                            throw noPlaceToPress(triangles);
-                        return part.deforming->carried(path, depth, part.keepOut, mayJump);
-                    };
-                const StrokePath path =
-                    layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told, carry);
-                return part.deforming != nullptr ? path : path.carriedBy(part.motion);
+                if (part.deforming == nullptr)
+                    return layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told, stays)
+                        .carriedBy(part.motion);
+                Carrier carrier([&](const StrokePath& path, double depth) {
+                    return part.deforming->carried(path, depth, part.keepOut, mayJump);
+                });
+                return layKind(trianglesOf(triangles, part), part.keepOut, *kind, request, told, carrier);
             } catch (const Error&) {
                 continue; // the others sweep over all of it, or it moves too far
             }
         }
-    }
     throw noPlaceToPress(triangles);
 }
 
 StrokePath layStroke(std::span<const glm::dvec3> corners, const StrokeRequest& request) {
     const auto [kind, told] = understood(request);
-    return layKind(trianglesOf(corners), {}, *kind, request, told);
+    Carrier stays({});
+    return layKind(trianglesOf(corners), {}, *kind, request, told, stays);
 }
 
 } // namespace touchstone

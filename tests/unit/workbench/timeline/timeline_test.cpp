@@ -177,7 +177,8 @@ TEST_F(TimelineTest, EditsBeginSegmentsWhereTheirBodiesAre) {
     edit(4, 6, false);
     items.emplace_back(RecordedEnd{7200});
     std::vector<size_t> begins;
-    for (const TimelineSegment& segment : made(items)->segments()) {
+    const auto timeline = made(items);
+    for (const TimelineSegment& segment : timeline->segments()) {
         begins.push_back(segment.first);
         EXPECT_TRUE(segment.checkpoint) << segment.first;
     }
