@@ -19,7 +19,7 @@ constexpr double kMostAnchors = 512;
 constexpr double kAnchorSample = 1.0 / 240.0;
 constexpr double kMostAnchorSamples = 1e6; ///< of all anchors: 64 MB
 constexpr double kPoses = 24.0;            ///< of a second
-constexpr double kFewestPoses = 8.0, kMostPoses = 64.0;
+constexpr double kFewestPoses = 8.0;
 constexpr double kMostPlaces = 2e6; ///< vertices in all poses of all parts, but for the fewest poses
 
 /// The corners' weights of the projection of `p`, moved into the triangle: near the closest place of it.
@@ -94,7 +94,7 @@ DeformingPart::DeformingPart(const Scene& scene, const Animation& animation, siz
         rest_.push_back(deviceFromScene.point(glm::dvec3(sceneFromMesh * glm::dvec4(glm::dvec3(p), 1.0))));
     const double fit = std::floor(kMostPlaces / static_cast<double>((rest_.size() + 1) * parts));
     poses_ = static_cast<size_t>(std::clamp(std::ceil(animation.duration * kPoses), kFewestPoses,
-                                            std::clamp(fit, kFewestPoses, kMostPoses)));
+                                            std::clamp(fit, kFewestPoses, static_cast<double>(kMostPoses))));
     // The vertices' boxes, widened by half of their way from the pose before and half of that to the next.
     Poser poser(*this);
     Places before(rest_.size()), now(rest_.size());

@@ -22,6 +22,8 @@ namespace touchstone {
 /// An instance whose vertices the played animation moves. Device frame. The scene outlives it. One thread.
 class DeformingPart {
   public:
+    static constexpr size_t kMostPoses = 64; ///< of the animation, that boxAround has boxes of
+
     /// `parts`: of the scene, which share time and memory.
     DeformingPart(const Scene& scene, const Animation& animation, size_t instance,
                   const Similarity& deviceFromScene, size_t parts);
@@ -30,10 +32,10 @@ class DeformingPart {
     [[nodiscard]] Bounds boxAround(double share) const;
 
     /// `laid`, which holds on the surface at rest, carried by it: a hand keeps its distance from the
-    /// triangle under it, in m. Nullopt where in one of 8 to 64 moments of the animation
-    /// the hand would be too deep, in one of the boxes of `keepOut`, or in the air with another part of the
-    /// surface between it and the triangle. `mayJump`: also where the animation starts again at another place
-    /// and takes the hand there through the surface, or while it presses.
+    /// triangle under it, in m. Nullopt where in one of 8 to kMostPoses moments of the animation the hand
+    /// would be too deep, in one of the boxes of `keepOut`, or in the air with another part of the surface
+    /// between it and the triangle. `mayJump`: also where the animation starts again at another place and
+    /// takes the hand there through the surface, or while it presses.
     [[nodiscard]] std::optional<StrokePath> carried(const StrokePath& laid, double depth,
                                                     std::span<const Bounds> keepOut, bool mayJump) const;
 

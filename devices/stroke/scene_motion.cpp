@@ -21,7 +21,7 @@ constexpr double kSampleTime = 1e-3; ///< s; at 10 m/s² the error of a chord is
 constexpr double kMaxSamples = 20000.0;
 constexpr int kSide = 24; ///< rays per side of the view that measure visibility
 /// Poses of the other parts that are boxed; where one deforms at least as many as it may have boxes for.
-constexpr size_t kFewestBoxes = 16, kFewestDeforming = 64, kBoxes = 256;
+constexpr size_t kFewestBoxes = 16, kBoxes = 256;
 
 /// By node: the lowest one at or above it that the animation moves itself; -1: none.
 std::vector<int> moversOf(const Scene& scene, const Animation& animation) {
@@ -120,7 +120,7 @@ std::vector<Bounds> keptOut(Movement& movement, double duration, std::span<const
     const size_t count = boxes.size();
     const bool anyDeforms = std::ranges::any_of(deforming, [](const auto& of) { return of != nullptr; });
     const size_t poses = std::clamp<size_t>(200000 / std::max<size_t>(count, 1),
-                                            anyDeforms ? kFewestDeforming : kFewestBoxes, kBoxes);
+                                            anyDeforms ? DeformingPart::kMostPoses : kFewestBoxes, kBoxes);
     std::vector<Bounds> swept(count);
     std::vector<Similarity> before(count);
     for (size_t k = 0; k <= poses; ++k) {

@@ -32,7 +32,7 @@ constexpr std::string_view kInsteadOfTour = "zigzag";
 class Carrier {
   public:
     /// Empty: paths stay as they are.
-    explicit Carrier(CarryPath carry) : carry_(std::move(carry)) {}
+    explicit Carrier(CarryPath carry = {}) : carry_(std::move(carry)) {}
     [[nodiscard]] bool moves() const { return carry_ != nullptr; }
     [[nodiscard]] bool gaveUp() const { return moves() && left_ == 0; }
     [[nodiscard]] std::optional<StrokePath> carried(const StrokePath& path, double depth) {
@@ -95,14 +95,14 @@ std::optional<StrokePath> laidAcrossEdge(const Ground& ground, const StrokeKind&
 std::optional<StrokePath> laidOnPoint(const Ground& ground, const StrokeKind& kind,
                                       std::span<const StrokeSite> sites, const glm::dvec3& front,
                                       const StrokeTold& told) {
+    if (ground.carrier.gaveUp())
+        return std::nullopt;
     std::vector<PressPlace> places;
     for (const StrokeSite& site : sites)
         places.push_back({site.view.centre, site.view.towards});
     for (const PressPlace& place : pressPlaces(ground.triangles, ground.bounds, front))
         places.push_back(place);
     std::optional<StrokePath> path;
-    if (ground.carrier.gaveUp())
-        return path;
     for (const bool anywhere : {false, true}) {
         PressPlace last;
         (void)firstPress(ground.triangles, places, kHovers[0], told.depth,
@@ -226,7 +226,7 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
     const auto [kind, told] = understood(request);
     const TriangleSource triangles = trianglesOf(scene, deviceFromScene);
     const std::vector<MovingPart> parts = movingParts(scene, deviceFromScene, request);
-    Carrier stays({});
+    Carrier stays;
     if (parts.empty())
         return layKind(triangles, {}, *kind, request, told, stays);
     for (const bool mayJump : {false, true})
@@ -250,7 +250,7 @@ StrokePath layStroke(const Scene& scene, const Similarity& deviceFromScene, cons
 
 StrokePath layStroke(std::span<const glm::dvec3> corners, const StrokeRequest& request) {
     const auto [kind, told] = understood(request);
-    Carrier stays({});
+    Carrier stays;
     return layKind(trianglesOf(corners), {}, *kind, request, told, stays);
 }
 

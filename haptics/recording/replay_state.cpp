@@ -41,17 +41,17 @@ void Replayer::putDriven(const RecordedTick& tick, Touched& touched) const {
         if (static_cast<size_t>(pose.object) >= objects)
             throw Error("recording", "", "moves an object that its scene does not have",
                         "the file is damaged, or its scene is another one now");
-    const auto share = [](Touched& of, std::shared_ptr<DrivenObjects> driven) {
-        if (of.world.driven() != nullptr)
-            return;
+    const auto give = [](Touched& of, std::shared_ptr<DrivenObjects> driven) {
         CarriedOver goesOn = of.world.carriedOver();
         goesOn.driven = std::move(driven);
         of.world = WorldState(of.scene.source, *of.scene.haptic, WorldBodies::Simulated, std::move(goesOn));
     };
     // An edited scene has those of its root, which tells where they are (`moved`).
     Touched& root = *loaded_.at(rootOf(tick.scene));
-    share(root, std::make_shared<DrivenObjects>());
-    share(touched, root.world.driven());
+    if (root.world.driven() == nullptr)
+        give(root, std::make_shared<DrivenObjects>());
+    if (touched.world.driven() == nullptr)
+        give(touched, root.world.driven());
     touched.world.driven()->restore(state->second);
 }
 

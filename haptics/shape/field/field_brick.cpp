@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 
 namespace touchstone {
@@ -17,10 +16,7 @@ static_assert(kBrickCells == 8); // the cells of a row along x are one Eight
 /// The nodes at both ends of eight edges along x.
 struct Row {
     Eight from, to;
-    explicit Row(const float* nodes) noexcept {
-        std::memcpy(&from, nodes, sizeof from);
-        std::memcpy(&to, nodes + 1, sizeof to);
-    }
+    explicit Row(const float* nodes) noexcept : from(eightAt(nodes)), to(eightAt(nodes + 1)) {}
 };
 Eight difference(Eight a, Eight b) {
     return larger(a - b, b - a);

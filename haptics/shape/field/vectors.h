@@ -2,12 +2,19 @@
 // Eight floats or four doubles at a time, by the compilers' vector extension, as in shape/mesh/triangle_tree.
 
 #include <cstdint>
+#include <cstring>
 
 namespace touchstone {
 
 using Eight [[gnu::vector_size(32)]] = float;
 using Four [[gnu::vector_size(32)]] = double;
 
+/// From any address.
+inline Eight eightAt(const float* values) noexcept {
+    Eight eight;
+    std::memcpy(&eight, values, sizeof eight);
+    return eight;
+}
 inline Eight smaller(Eight a, Eight b) noexcept {
     return a < b ? a : b;
 }

@@ -21,8 +21,7 @@ double largestDistance(const FieldGrid& grid, const glm::ivec3& brick) {
     static_assert(kNodesInBrick % 8 == 1);
     Eight largest = Eight{} + std::abs(nodes.back());
     for (size_t i = 0; i + 8 < nodes.size(); i += 8) {
-        Eight some;
-        std::memcpy(&some, &nodes[i], sizeof some);
+        const Eight some = eightAt(&nodes[i]);
         largest = larger(largest, larger(some, -some));
     }
     float most = 0.0f;

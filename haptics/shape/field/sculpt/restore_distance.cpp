@@ -57,12 +57,6 @@ double squaredDistance(const glm::ivec3& node, const glm::dvec3& point) {
 
 constexpr Eight kSteps{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
 
-Eight eightFrom(const std::vector<float>& values, size_t index) {
-    Eight eight;
-    std::memcpy(&eight, &values[index], sizeof eight);
-    return eight;
-}
-
 } // namespace
 
 std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone& zone,
@@ -159,8 +153,8 @@ uint32_t DistanceRestorer::mayOpen(const glm::ivec3& first, size_t index, int co
     if (count < kBrickCells)
         return all;
     constexpr float kRounded = 1.0f + 1e-5f;
-    const Eight before = eightFrom(window_->before, index), own = larger(before, -before);
-    const Eight value = eightFrom(window_->value, index);
+    const Eight before = eightAt(&window_->before[index]), own = larger(before, -before);
+    const Eight value = eightAt(&window_->value[index]);
     const auto reach = static_cast<float>(zone_.radius + kRoom);
     const glm::vec3 way(glm::dvec3(first) - zone_.centre);
     const Eight x = way.x + kSteps;
@@ -196,7 +190,7 @@ uint32_t DistanceRestorer::restsElsewhere(size_t index, Eight squared, Eight f, 
     const auto perTwo = static_cast<float>(0.5 / window_->voxel),
                reach = static_cast<float>(zone_.radius + kRoom);
     const auto slope = [&](size_t step) {
-        return (eightFrom(window_->before, index + step) - eightFrom(window_->before, index - step)) * perTwo;
+        return (eightAt(&window_->before[index + step]) - eightAt(&window_->before[index - step])) * perTwo;
     };
     const Eight x = slope(1), y = slope(static_cast<size_t>(window_->step(1))),
                 z = slope(static_cast<size_t>(window_->step(2)));
