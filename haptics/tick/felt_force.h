@@ -1,7 +1,8 @@
 #pragma once
 // Stages 5 to 7 of a tick, and the part of stage 4 that turns only the force: from the solve result to a
 // force. Only haptic_step.cpp includes this file. Functions that a scene may not need are out of line, so
-// that they take no registers from those that every scene needs.
+// that they take no registers from those that every scene needs; what every tick needs is in line in both
+// instances of feltForce, since the compiler shares it between them otherwise (62 instructions a function).
 
 #include "haptics/comparison/comparison_solver.h"
 #include "haptics/force/contact_loads.h"
@@ -46,7 +47,7 @@ struct FeltShape {
 }
 
 /// Velocity of the HIP relative to the reference object's surface, m/s, in the reference object frame.
-inline glm::dvec3 surfaceVelocity(const HandTick& tick, const DeviceState& state) {
+[[gnu::always_inline]] inline glm::dvec3 surfaceVelocity(const HandTick& tick, const DeviceState& state) {
     const ObjectMotion& reference = tick.motions[static_cast<size_t>(state.reference)];
     const Similarity& now = reference.workspaceFromObject;
     glm::dvec3 carried(0.0);
@@ -85,8 +86,9 @@ struct SeveralContacts {
 bool feltAsOne(const HandTick& tick, bool oneFacet, const SolveResult& rest, const SubGoal& activeSet);
 
 /// Publishes the contacts that hold the HIP off, before friction moves the proxy.
-inline void publishContact(const Similarity& workspaceFromReference, const SolveResult& rest,
-                           const SurfaceSample& feel, HapticOutput& output) {
+[[gnu::always_inline]] inline void publishContact(const Similarity& workspaceFromReference,
+                                                  const SolveResult& rest, const SurfaceSample& feel,
+                                                  HapticOutput& output) {
     output.contacts = rest.contactCount;
     if (!feel.touching)
         return;

@@ -31,7 +31,7 @@ void publishProxy(const Similarity& workspaceFromReference, const DeviceState& s
 }
 
 /// True where no material of the scene needs stages 4 to 6.
-bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
+[[gnu::always_inline]] inline bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
     return kPlainTick || (scene.plan.plainSample && !(settings.staticFriction > 0.0) &&
                           !(scene.plan.dampingMap && settings.damping > 0.0) &&
                           (!scene.plan.anyShading ||
@@ -111,20 +111,22 @@ template <class Solver, class Stopwatch>
 
     // 3. Proxy solve: as near to the goal as free space allows. 4. Force shading: the same solve against the
     // interpolated planes.
+    const SubGoal* activeSet = &rest.activeSet;
     if (effects && Solver::shades(tick.settings) && anyTwoPass(tick.scene.plan, tick.settings)) {
         solveShaded(tick, hip, glm::length(state.travel) / workspaceFromReference.scale, proxy, state,
                     stopwatch);
+        if (state.shaded)
+            activeSet = &rest.shadedActiveSet;
     } else {
         state.shaded = false; // after shading is switched off, its last goal is not a valid start
         proxy.moveTowards(hip);
         stopwatch.lap(Stage::Proxy);
     }
-    const SubGoal& activeSet = state.shaded ? rest.shadedActiveSet : rest.activeSet;
 
     // 5. to 7. Surface, friction, force.
-    const bool varied = effects || (activeSet.count > 1 && !feltAsOne(tick, false, rest, activeSet));
-    const Felt felt = varied ? feelEffects(tick, hip, held, activeSet, proxy, state, output, stopwatch)
-                             : feltForce<false>(tick, hip, held, activeSet, proxy, state, output, stopwatch);
+    const bool varied = effects || (activeSet->count > 1 && !feltAsOne(tick, false, rest, *activeSet));
+    const Felt felt = varied ? feelEffects(tick, hip, held, *activeSet, proxy, state, output, stopwatch)
+                             : feltForce<false>(tick, hip, held, *activeSet, proxy, state, output, stopwatch);
     publishForce(tick, workspaceFromReference, felt, state.travel, world, output);
     output.flags |= rest.flags;
     publishProxy(workspaceFromReference, state, rest, output);
