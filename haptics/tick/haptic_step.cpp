@@ -31,7 +31,8 @@ void publishProxy(const Similarity& workspaceFromReference, const DeviceState& s
 }
 
 /// True where no material of the scene needs stages 4 to 6.
-[[gnu::always_inline]] inline bool callsForNoEffect(const HapticScene& scene, const HapticSettings& settings) {
+[[gnu::always_inline]] inline bool callsForNoEffect(const HapticScene& scene,
+                                                    const HapticSettings& settings) {
     return kPlainTick || (scene.plan.plainSample && !(settings.staticFriction > 0.0) &&
                           !(scene.plan.dampingMap && settings.damping > 0.0) &&
                           (!scene.plan.anyShading ||
