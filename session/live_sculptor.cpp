@@ -12,15 +12,16 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(1); // the servo cannot wake a thread without a lock
 
-/// Leaves out every second dab of the same stroke; what Drag moves by is passed on.
-uint64_t thin(std::deque<SculptEntry>& waiting) {
+/// Leaves out every second dab of the same stroke, after the first `felt` entries; what Drag moves by is
+/// passed on.
+uint64_t thin(std::deque<SculptEntry>& waiting, size_t felt) {
     std::deque<SculptEntry> kept;
     uint64_t left = 0;
     glm::dvec3 motion(0.0);
     bool leave = false;
     for (size_t i = 0; i < waiting.size(); ++i) {
         SculptEntry entry = waiting[i];
-        const bool plain = entry.kind == SculptEntryKind::Dab && i > 0 && i + 1 < waiting.size() &&
+        const bool plain = entry.kind == SculptEntryKind::Dab && i > felt && i + 1 < waiting.size() &&
                            waiting[i - 1].kind == SculptEntryKind::Dab &&
                            waiting[i + 1].kind == SculptEntryKind::Dab;
         leave = plain && !leave;
@@ -36,9 +37,15 @@ uint64_t thin(std::deque<SculptEntry>& waiting) {
     return left;
 }
 
+SculptEntry as(SculptEntryKind kind, SculptEntry entry) {
+    entry.kind = kind;
+    return entry;
+}
+
 } // namespace
 
 LiveSculptor::~LiveSculptor() {
+    wanted_.store(true, std::memory_order_relaxed); // no more previews
     {
         const std::scoped_lock lock(mutex_);
         stopping_ = true;
@@ -65,8 +72,10 @@ void LiveSculptor::begin(uint32_t number, std::shared_ptr<const HapticScene> sce
     source_ = std::move(source);
     root_ = oldestRoot_ = number;
     waiting_.clear();
+    previewed_ = 0;
     journal_.clear();
     sent_ = 0;
+    made_ = offered_ = 0;
     figures_ = {};
 }
 
@@ -144,8 +153,8 @@ void LiveSculptor::gather() {
     for (SculptEntry entry; servo_.popEdit(entry);)
         if (std::exchange(entry.root, 0) >= oldestRoot_)
             waiting_.push_back(entry);
-    while (waiting_.size() > kMostWaiting) {
-        const uint64_t left = thin(waiting_);
+    while (waiting_.size() > previewed_ + kMostWaiting) {
+        const uint64_t left = thin(waiting_, previewed_);
         figures_.thinned += left;
         if (left == 0)
             break;
@@ -177,8 +186,12 @@ void LiveSculptor::work() {
                 continue;
             }
         }
-        while (wanted_.load(std::memory_order_relaxed))
+        while (wanted_.load(std::memory_order_relaxed)) {
             std::this_thread::sleep_for(kPoll);
+            const std::scoped_lock lock(mutex_);
+            if (stopping_)
+                return;
+        }
         const std::scoped_lock applying(applying_);
         servo_.collectEdited();
         applyWaiting();
@@ -195,7 +208,7 @@ std::optional<SculptEntry> LiveSculptor::next() {
 }
 
 /// As many entries as kPublish allows, or one up to its shape, then a publication; once more with distances
-/// where a shape was made, after what the hand makes beside it meanwhile.
+/// where a shape was made, after what the hand makes beside it.
 void LiveSculptor::applyWaiting() {
     const double begin = secondsNow();
     const size_t before = journal_.size();
@@ -215,23 +228,80 @@ void LiveSculptor::applyWaiting() {
     publish();
     std::optional<int32_t> object = sculptor_->owesDistances();
     for (int shapes = 1; object; object = sculptor_->owesDistances()) {
-        SculptEntry entry{.kind = SculptEntryKind::Restore, .object = *object};
-        if (const auto joined = shapes < kMostShapes ? nextBeside() : std::nullopt) {
-            entry = *joined;
-            entry.kind = SculptEntryKind::Shape;
-            ++shapes;
-        }
         const size_t made = journal_.size();
-        apply(entry);
+        if (const auto joined = shapes < kMostShapes ? nextBeside() : std::nullopt) {
+            apply(as(SculptEntryKind::Shape, *joined));
+            ++shapes;
+        } else {
+            apply({.kind = SculptEntryKind::Restore, .object = *object});
+            shapes = makePreviewed(); // in the same publication: what is felt stays
+        }
         if (journal_.size() > made)
             publish();
-        else if (entry.kind == SculptEntryKind::Restore)
-            break;
     }
+}
+
+/// Between steps of a restoration.
+void LiveSculptor::previewWaiting(int32_t object) {
+    servo_.collectEdited();
+    const std::optional<SculptEntry> entry = nextPreview(object);
+    if (!entry)
+        return;
+    const double begin = secondsNow();
+    const size_t made = journal_.size();
+    apply(as(SculptEntryKind::Preview, *entry));
+    if (journal_.size() > made)
+        publish();
+    previewing_ += secondsNow() - begin;
+}
+
+/// The next entry that can be felt while distances of `object` are restored. Begins wait: a preview belongs
+/// to no stroke.
+std::optional<SculptEntry> LiveSculptor::nextPreview(int32_t object) {
+    const std::scoped_lock lock(mutex_);
+    gather();
+    size_t at = previewed_;
+    while (at < waiting_.size() && waiting_[at].kind == SculptEntryKind::Begin)
+        ++at;
+    if (at >= std::min(waiting_.size(), kMostPreviews) || wanted_.load(std::memory_order_relaxed) ||
+        waiting_[at].object != object || !sculptor_->canShape(waiting_[at]))
+        return std::nullopt;
+    previewed_ = at + 1;
+    return waiting_[at];
+}
+
+/// What is felt as previews, which ended with the restoration: as shapes where they leave their distances to
+/// one restoration, else as previews again. Returns the number of shapes.
+int LiveSculptor::makePreviewed() {
+    const auto felt = [this](size_t at) -> std::optional<SculptEntry> {
+        const std::scoped_lock lock(mutex_);
+        return at < previewed_ ? std::optional(waiting_[at]) : std::nullopt;
+    };
+    int shapes = 0;
+    for (std::optional<SculptEntry> first = felt(0); first; first = felt(0)) {
+        const bool begins = first->kind == SculptEntryKind::Begin;
+        if (!begins && sculptor_->owesDistances() && (shapes >= kMostShapes || !sculptor_->joins(*first)))
+            break;
+        {
+            const std::scoped_lock lock(mutex_);
+            waiting_.pop_front();
+            --previewed_;
+        }
+        apply(begins ? *first : as(SculptEntryKind::Shape, *first), true);
+        shapes += begins ? 0 : 1;
+    }
+    size_t at = 0;
+    for (std::optional<SculptEntry> next = felt(at); next; next = felt(++at))
+        if (next->kind != SculptEntryKind::Begin)
+            apply(as(SculptEntryKind::Preview, *next), true);
+    return shapes;
 }
 
 void LiveSculptor::publish() {
     sculptor_->settle();
+    // A scene that no tick has adopted leaves its edits to this one.
+    offered_ = servo_.editedPending() && offered_ > 0 ? offered_ : made_;
+    made_ = 0;
     servo_.offerEdited(published(false));
 }
 
@@ -239,28 +309,35 @@ void LiveSculptor::publish() {
 std::optional<SculptEntry> LiveSculptor::nextBeside() {
     const std::scoped_lock lock(mutex_);
     gather();
-    if (waiting_.empty() || !sculptor_->joins(waiting_.front()))
+    if (waiting_.empty() || wanted_.load(std::memory_order_relaxed) || !sculptor_->joins(waiting_.front()))
         return std::nullopt;
     const SculptEntry entry = waiting_.front();
     waiting_.pop_front();
     return entry;
 }
 
-void LiveSculptor::apply(const SculptEntry& entry) {
+/// `felt`: as a preview, before.
+void LiveSculptor::apply(const SculptEntry& entry, bool felt) {
     if (!sculptor_)
         return;
-    const double begin = secondsNow();
+    const double begin = secondsNow(), previewing = previewing_;
     SculptReport report;
     std::string problem;
     try {
-        report = sculptor_->apply(entry);
+        report = entry.kind == SculptEntryKind::Restore
+                     ? sculptor_->restore(entry.object, [&] { previewWaiting(entry.object); })
+                     : sculptor_->apply(entry);
         const bool made = entry.kind == SculptEntryKind::Dab || entry.kind == SculptEntryKind::Shape;
-        if (!made || report.dabs > 0) // else the object is hidden: it may come back
+        // Else the object is hidden: it may come back.
+        if (entry.kind == SculptEntryKind::Preview ? report.bricks > 0 : !made || report.dabs > 0) {
             journal_.push_back(entry);
+            if (!felt && made_ == 0)
+                made_ = entry.tick;
+        }
     } catch (const std::exception& error) {
         problem = error.what();
     }
-    const double seconds = secondsNow() - begin;
+    const double seconds = secondsNow() - begin - (previewing_ - previewing);
     if (entry.kind == SculptEntryKind::Dab || entry.kind == SculptEntryKind::Restore)
         restoring_ = seconds;
     const std::scoped_lock lock(mutex_);
@@ -284,9 +361,7 @@ ReshapedScene LiveSculptor::published(bool whole) {
                           .number = scene.number,
                           .root = root_,
                           .reshaped = sculptor_->sculpted()};
-    const auto made = std::find_if(journal_.begin() + static_cast<ptrdiff_t>(sent_), journal_.end(),
-                                   [](const SculptEntry& entry) { return entry.tick > 0; });
-    offered.oldestEdit = made != journal_.end() ? made->tick : 0;
+    offered.oldestEdit = offered_;
     sent_ = journal_.size();
     for (const int object : offered.reshaped)
         if (!scene.haptic->objects[static_cast<size_t>(object)]->empty()) // hidden: when it is shown again

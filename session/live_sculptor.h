@@ -45,8 +45,10 @@ struct SculptFigures {
 };
 
 /// The servo writes dabs into a ring; a thread of this class pops them, applies them to copy-on-write bricks
-/// and offers the scene with the new field, at least every kPublish while edits come. Functions without a
-/// note: the servo's owner thread. The worker has no thread until the first tool is active.
+/// and offers the scene with the new field, at least every kPublish while edits come. What the hand makes
+/// while distances are restored is felt at once as a preview, and made after the restoration: how long that
+/// takes is not felt. Functions without a note: the servo's owner thread. The worker has no thread until the
+/// first tool is active.
 class LiveSculptor {
   public:
     static constexpr double kPublish = 0.004; ///< s of dabs in one publication, and one dab more
@@ -54,7 +56,9 @@ class LiveSculptor {
     static constexpr size_t kMostWaiting = 2;
     /// A dab that takes longer is published twice: its shape, and then its distances (SculptEntryKind).
     static constexpr double kWhole = 0.002; // s
-    static constexpr int kMostShapes = 3;   ///< before their distances are restored
+    static constexpr int kMostShapes = 6;   ///< before their distances are restored
+    /// Entries that are felt while distances are restored, and made afterwards: more of them wait.
+    static constexpr size_t kMostPreviews = 6;
 
     explicit LiveSculptor(ServoLoop& servo) : servo_(servo) {}
     ~LiveSculptor();
@@ -90,9 +94,12 @@ class LiveSculptor {
     void gather();
     [[nodiscard]] std::optional<SculptEntry> next();
     [[nodiscard]] std::optional<SculptEntry> nextBeside();
+    [[nodiscard]] std::optional<SculptEntry> nextPreview(int32_t object);
     void applyWaiting();
+    void previewWaiting(int32_t object);
+    [[nodiscard]] int makePreviewed();
     void publish();
-    void apply(const SculptEntry& entry);
+    void apply(const SculptEntry& entry, bool felt = false);
     [[nodiscard]] ReshapedScene published(bool whole);
     [[nodiscard]] std::unique_lock<std::mutex> stopApplying();
 
@@ -105,6 +112,7 @@ class LiveSculptor {
     std::condition_variable wake_, idle_;
     bool stopping_ = false, active_ = false, busy_ = false;
     std::deque<SculptEntry> waiting_;
+    size_t previewed_ = 0;    // of them, the first ones: they are felt already
     uint32_t oldestRoot_ = 0; // the first with these objects: edits of scenes before it are not for them
     std::vector<SculptedScene> published_;
     SculptFigures figures_;
@@ -116,9 +124,12 @@ class LiveSculptor {
     uint32_t root_ = 0;
     std::vector<SculptEntry> journal_; // of the root
     size_t sent_ = 0;                  // entries of it that were published
+    uint64_t made_ = 0,
+             offered_ = 0; // ticks of the oldest edits: not offered yet, in the last offer; 0: none
     uint64_t memory_ = 0;
-    double memoryAt_ = -1.0; // s
-    double restoring_ = 0.0; // s, of the last dab or restoration
+    double memoryAt_ = -1.0;  // s
+    double restoring_ = 0.0;  // s, of the last dab or restoration
+    double previewing_ = 0.0; // s, of all previews
 };
 
 } // namespace touchstone

@@ -166,14 +166,9 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
         begins_ = strokeIsEmpty_ = true; // what follows of the stroke is a step of its own
         return report;
     }
+    if (entry.kind == SculptEntryKind::Restore)
+        return restore(entry.object);
     const size_t object = checkedObject(entry.object);
-    if (entry.kind == SculptEntryKind::Restore) {
-        if (const auto found = sculptors_.find(object); found != sculptors_.end()) {
-            report.bricks = found->second.restore().bricks;
-            unsettled_.insert(object);
-        }
-        return report;
-    }
     if (scene_->objects[object]->empty())
         return report; // it is hidden
     if (fieldOf(*scene_->objects[object]) == nullptr)
@@ -188,6 +183,14 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
     if (entry.tool == SculptTool::Stamp || entry.tool == SculptTool::Imprint)
         dab.stamp = stampOf(checkedObject(entry.stamp));
     sculptor.check(dab);
+    if (entry.kind == SculptEntryKind::Preview) {
+        report.bricks = sculptor.preview(dab).bricks;
+        if (report.bricks > 0)
+            unsettled_.insert(object);
+        return report;
+    }
+    if (sculptor.previews()) // which end with it, whatever it changes
+        unsettled_.insert(object);
     if (std::exchange(begins_, false)) {
         sculptor.beginStroke();
         undone_.clear();
@@ -201,6 +204,16 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
     if (std::exchange(strokeIsEmpty_, false))
         done_.push_back({object, 0.0});
     done_.back().removed += report.removed;
+    return report;
+}
+
+SculptReport SceneSculptor::restore(int32_t object, const std::function<void()>& meanwhile) {
+    SculptReport report;
+    const size_t at = checkedObject(object);
+    if (const auto found = sculptors_.find(at); found != sculptors_.end()) {
+        report.bricks = found->second.restore(meanwhile).bricks;
+        unsettled_.insert(at);
+    }
     return report;
 }
 

@@ -8,6 +8,7 @@
 #include "haptics/shape/field/sculpt/sculptor.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,6 +43,8 @@ class SceneSculptor {
     /// One entry of a live journal; `scene` stays as it was until `settle`. Dabs between two Begins are one
     /// step of undo. Throws Error, before anything is changed, as the other one.
     SculptReport apply(const SculptEntry& entry);
+    /// The Restore of `object`, with Sculptor::restore's `meanwhile`: it may apply Previews and `settle`.
+    SculptReport restore(int32_t object, const std::function<void()>& meanwhile = {});
     /// A Dab that may be applied as Shape and Restore.
     [[nodiscard]] bool canShape(const SculptEntry& entry) const;
     /// As a Shape its distances are restored with those of the last ones.

@@ -8,6 +8,7 @@ namespace touchstone {
 
 using Eight [[gnu::vector_size(32)]] = float;
 using Four [[gnu::vector_size(32)]] = double;
+inline constexpr Eight kLane{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
 
 /// From any address.
 inline Eight eightAt(const float* values) noexcept {
@@ -26,6 +27,10 @@ inline Four smaller(Four a, Four b) noexcept {
 }
 inline Four larger(Four a, Four b) noexcept {
     return a > b ? a : b;
+}
+/// Correctly rounded, as std::sqrt.
+inline Eight root(Eight a) noexcept {
+    return __builtin_ia32_sqrtps256(a);
 }
 /// A bit for each number of a comparison that is true, the first one lowest.
 inline uint32_t lanes(decltype(Eight{} < Eight{}) which) noexcept {

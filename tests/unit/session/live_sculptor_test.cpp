@@ -177,5 +177,57 @@ TEST_F(LiveSculptorTest, EditsThatCannotBeAreRefusedAndNamed) {
     EXPECT_EQ(recording_.published, 0u);
 }
 
+/// That a published scene has all that an earlier one had: of what is added alone.
+struct GrowingSolid final : TickSubscriber {
+    explicit GrowingSolid(size_t field) : object(field) {}
+    void sceneOffered(const OfferedScene&) override {}
+    void sceneSculpted(const SculptedScene& scene) override {
+        for (const SculptEntry& entry : scene.entries) {
+            if (entry.kind != SculptEntryKind::Begin && entry.kind != SculptEntryKind::Restore)
+                centres.push_back(entry.centre);
+            previews += entry.kind == SculptEntryKind::Preview ? 1 : 0;
+            made += entry.kind == SculptEntryKind::Shape || entry.kind == SculptEntryKind::Dab ? 1 : 0;
+        }
+        for (const glm::dvec3& centre : centres)
+            missing += scene.haptic->objects[object]->shape->potential()->value(centre) < 0.0 ? 0 : 1;
+    }
+    void take(const TickRecord&, const HapticSettings&) override {}
+    void flush(double) override {}
+
+    size_t object;
+    std::vector<glm::dvec3> centres;
+    size_t previews = 0, made = 0, missing = 0;
+};
+
+/// Dabs that come faster than their distances are restored, with begins of strokes between them.
+TEST_F(LiveSculptorTest, WhatIsMadeWhileDistancesAreRestoredIsFeltAndStays) {
+    GrowingSolid solid(object_);
+    session_.subscribe(solid);
+    session_.start();
+    const Similarity& at = scene_.haptic->objects[object_]->workspaceFromObject;
+    const double radius = 0.012 / at.scale;
+    for (int i = 0; i < 60; ++i) {
+        const auto object = static_cast<int32_t>(object_);
+        if (i % 7 == 0)
+            session_.sculptor().add({.kind = SculptEntryKind::Begin, .object = object});
+        const glm::dvec3 place = top_ + glm::dvec3(0.0006 * (i % 30), 0.001 * (i % 3), 0.0);
+        session_.sculptor().add({.tool = SculptTool::Add,
+                                 .object = object,
+                                 .tick = static_cast<uint64_t>(i) + 1,
+                                 .centre = at.inversePoint(place),
+                                 .radius = radius});
+        std::this_thread::sleep_for(std::chrono::milliseconds(i % 10 == 0 ? 30 : 2));
+        session_.pump(0.0);
+    }
+    endSculpting(session_);
+    EXPECT_GT(solid.previews, 5u);
+    EXPECT_EQ(solid.missing, 0u) << "what was felt stays";
+    EXPECT_EQ(solid.made, session_.sculptor().figures().dabs) << "each dab is made once";
+    EXPECT_EQ(solid.made + session_.sculptor().figures().thinned, 60u);
+    EXPECT_EQ(recording_.last.hash, hashOf(recording_.entries));
+    recording_.recorder.finish();
+    expectEqualReplay(replayOf(file_, {scene_}));
+}
+
 } // namespace
 } // namespace touchstone::test

@@ -30,7 +30,8 @@ double largestDistance(const FieldGrid& grid, const glm::ivec3& brick) {
     return static_cast<double>(most) / grid.layout().voxel;
 }
 
-void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone) {
+/// Within `margin` voxels of the zone.
+void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone, double margin) {
     constexpr double kAround = 4.0;     // voxels: what the tools and the search of the surface read
     constexpr double kRoom = 1.5;       // voxels: a nearest place is known to a voxel
     constexpr double kAcrossHalf = 8.0; // voxels: half a brick's diagonal is 6.9, and f is a distance
@@ -38,9 +39,11 @@ void activate(FieldWindow& window, const FieldGrid& grid, const SculptZone& zone
                                static_cast<size_t>(window.bricks.z),
                            0);
     window.active.clear();
-    for (int z = 0; z < window.bricks.z; ++z)
-        for (int y = 0; y < window.bricks.y; ++y)
-            for (int x = 0; x < window.bricks.x; ++x) {
+    const glm::ivec3 from = zone.low(margin, 0) / kBrickCells;
+    const glm::ivec3 to = glm::min(zone.high(window, margin, 0) / kBrickCells, window.bricks - 1);
+    for (int z = from.z; z <= to.z; ++z)
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x) {
                 const glm::ivec3 brick(x, y, z), inGrid = window.first / kBrickCells + brick;
                 const glm::dvec3 low(kBrickCells * brick), high(window.lastNode(brick));
                 const glm::dvec3 away = glm::max(glm::max(low - zone.centre, zone.centre - high), 0.0);
@@ -98,6 +101,39 @@ void fillRows(const FieldWindow& window, const FieldGrid& grid, const NodeBox& b
                        layer);
 }
 
+/// fillWindow but for the nodes.
+SculptZone activeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre, double radius,
+                        double margin, double activeMargin) {
+    placeWindow(window, grid, centre, radius, margin);
+    window.before.resize(window.nodes());
+    window.value.resize(window.nodes());
+    const SculptZone zone{grid.gridFromObject(centre) - glm::dvec3(window.first),
+                          radius / grid.layout().voxel};
+    activate(window, grid, zone, activeMargin);
+    return zone;
+}
+
+/// The nodes of active bricks and those around.
+void fill(FieldWindow& window, const FieldGrid& before, const FieldGrid& now) {
+    std::vector<NodeBox> filled = window.around;
+    for (const glm::ivec3& brick : window.active)
+        filled.push_back({kBrickCells * brick, window.lastNode(brick)});
+    // Where two bricks keep a node the former one's value counts, as in FieldGrid::copyNodes.
+    std::ranges::sort(filled, std::greater(), [](const NodeBox& box) { return box.low.x / kBrickCells; });
+    for (const NodeBox& box : filled)
+        fillRows(window, before, box, window.before);
+    for (const NodeBox& box : filled)
+        if (&now != &before)
+            fillRows(window, now, box, window.value);
+        else
+            window.eachRow(box, [&](const glm::ivec3&, size_t index, int count) {
+                if (count == kBrickCells)
+                    std::memcpy(&window.value[index], &window.before[index], kBrickCells * sizeof(float));
+                else
+                    std::copy_n(&window.before[index], count, &window.value[index]);
+            });
+}
+
 /// Of the same bytes; false also for rows that are not 8 nodes long.
 bool sameRow(const float* a, const float* b, int count) {
     return count == kBrickCells && std::memcmp(a, b, kBrickCells * sizeof(float)) == 0;
@@ -144,22 +180,17 @@ void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& c
 
 SculptZone fillWindow(FieldWindow& window, const FieldGrid& before, const FieldGrid& now,
                       const glm::dvec3& centre, double radius, double margin) {
-    placeWindow(window, before, centre, radius, margin);
-    window.before.resize(window.nodes());
-    window.value.resize(window.nodes());
-    const SculptZone zone{before.gridFromObject(centre) - glm::dvec3(window.first),
-                          radius / before.layout().voxel};
-    activate(window, before, zone);
+    const SculptZone zone = activeWindow(window, before, centre, radius, margin, margin);
     findAround(window);
-    std::vector<NodeBox> filled = window.around;
-    for (const glm::ivec3& brick : window.active)
-        filled.push_back({kBrickCells * brick, window.lastNode(brick)});
-    // Where two bricks keep a node the former one's value counts, as in FieldGrid::copyNodes.
-    std::ranges::sort(filled, std::greater(), [](const NodeBox& box) { return box.low.x / kBrickCells; });
-    for (const NodeBox& box : filled) {
-        fillRows(window, before, box, window.before);
-        fillRows(window, now, box, window.value);
-    }
+    fill(window, before, now);
+    return zone;
+}
+
+SculptZone fillShapeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre,
+                           double radius, double margin, double activeMargin) {
+    const SculptZone zone = activeWindow(window, grid, centre, radius, margin, activeMargin);
+    window.around.clear();
+    fill(window, grid, grid);
     return zone;
 }
 

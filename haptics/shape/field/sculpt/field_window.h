@@ -117,6 +117,12 @@ void placeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& c
 SculptZone fillWindow(FieldWindow& window, const FieldGrid& before, const FieldGrid& now,
                       const glm::dvec3& centre, double radius, double margin);
 
+/// The same window for a tool alone, which reads no nodes around active bricks: they have no values. Active
+/// are only bricks within `activeMargin` voxels of the ball. Its first node is that of fillWindow: the ball's
+/// centre in the window has the same last bits, and so has what the tool makes.
+SculptZone fillShapeWindow(FieldWindow& window, const FieldGrid& grid, const glm::dvec3& centre,
+                           double radius, double margin, double activeMargin);
+
 inline constexpr uint64_t kMostWindowNodes = uint64_t{1} << 27;
 
 /// Boxes, none of which reaches into two bricks, that hold all nodes whose value is not that of before.

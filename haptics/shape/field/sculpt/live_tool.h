@@ -29,9 +29,9 @@ struct LiveTool {
 };
 
 /// Shape and Restore are the halves of a Dab (Sculptor): what the hand made is felt before distances are
-/// restored.
-enum class SculptEntryKind : uint8_t { Begin, Dab, Undo, Redo, Shape, Restore };
-inline constexpr SculptEntryKind kLastSculptEntryKind = SculptEntryKind::Restore;
+/// restored. Preview is what it makes meanwhile: felt at once, and made again after the Restore.
+enum class SculptEntryKind : uint8_t { Begin, Dab, Undo, Redo, Shape, Restore, Preview };
+inline constexpr SculptEntryKind kLastSculptEntryKind = SculptEntryKind::Preview;
 
 /// An entry of the journal: numbers alone, so that it goes through a ring and into a recording.
 struct SculptEntry {

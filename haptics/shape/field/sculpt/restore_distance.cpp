@@ -55,23 +55,31 @@ double squaredDistance(const glm::ivec3& node, const glm::dvec3& point) {
     return glm::dot(way, way);
 }
 
-constexpr Eight kSteps{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
-
 } // namespace
 
 std::vector<NodeBox> DistanceRestorer::run(FieldWindow& window, const SculptZone& zone,
-                                           const DistanceReach& reach, ExactSide exact) {
+                                           const DistanceReach& reach, ExactSide exact,
+                                           const std::function<void()>& meanwhile) {
+    meanwhile_ = &meanwhile;
     exact_ = exact;
     window_ = &window;
     zone_ = zone;
     reach_ = reach;
     begin();
+    pause();
     if (!findNear())
         return {};
+    pause();
     open();
     seedKept();
     march();
+    pause();
     return finish();
+}
+
+void DistanceRestorer::pause() {
+    if (*meanwhile_)
+        (*meanwhile_)();
 }
 
 void DistanceRestorer::begin() {
@@ -157,7 +165,7 @@ uint32_t DistanceRestorer::mayOpen(const glm::ivec3& first, size_t index, int co
     const Eight value = eightAt(&window_->value[index]);
     const auto reach = static_cast<float>(zone_.radius + kRoom);
     const glm::vec3 way(glm::dvec3(first) - zone_.centre);
-    const Eight x = way.x + kSteps;
+    const Eight x = way.x + kLane;
     const Eight squared = x * x + (way.y * way.y + way.z * way.z);
     const Eight far = own * static_cast<float>(1.0 / window_->voxel) + reach;
     // As floats not below these, values are not below the limit of `open`, either.
@@ -196,7 +204,7 @@ uint32_t DistanceRestorer::restsElsewhere(size_t index, Eight squared, Eight f, 
                 z = slope(static_cast<size_t>(window_->step(2)));
     const Eight steep = x * x + y * y + z * z;
     const Eight a = (squared + f * f) * (1.0f - kRounded) - reach * reach * (1.0f + kRounded);
-    const Eight b = 2.0f * f * (x * (way.x + kSteps) + y * way.y + z * way.z);
+    const Eight b = 2.0f * f * (x * (way.x + kLane) + y * way.y + z * way.z);
     return lanes(steep > kLeast) & lanes(steep < kMost) & lanes(a > 0.0f) &
            (lanes(b < 0.0f) | lanes(a * a * steep > b * b));
 }
@@ -247,10 +255,11 @@ void DistanceRestorer::seedKept() {
         std::memcpy(&states, &state_[row], sizeof states);
         return (((states & 0xffffffu) - 0x020202u) & 0x808080u) != 0;
     };
-    for (size_t i = 0, count = touched_.size(); i < count; ++i) {
+    for (size_t i = 0, end = touched_.size(); i < end; ++i) {
         const uint32_t node = touched_[i];
         if (state_[node] != Node::Open && state_[node] != Node::Reached)
             continue;
+        count();
         const glm::ivec3 place = window.nodeAt(node);
         eachNeighbour(
             window, place,
@@ -358,6 +367,7 @@ void DistanceRestorer::handOn(const glm::ivec3& place, size_t node, const glm::d
 
 void DistanceRestorer::march() {
     while (!queue_.empty()) {
+        count();
         const NodeQueue::Entry entry = queue_.pop();
         if (state_[entry.node] != Node::Given && entry.distance > distance_[entry.node])
             continue; // a nearer place was found since

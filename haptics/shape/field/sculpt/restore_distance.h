@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace touchstone {
@@ -27,9 +28,10 @@ enum class ExactSide : uint8_t { None, Inside, Outside };
 class DistanceRestorer {
   public:
     /// The window's active bricks hold all nodes that may have their nearest place in the zone. `exact`: the
-    /// side of the surface where the values are distances already. Returns changedNodes.
+    /// side of the surface where the values are distances already. `meanwhile` is called between steps.
+    /// Returns changedNodes.
     std::vector<NodeBox> run(FieldWindow& window, const SculptZone& zone, const DistanceReach& reach,
-                             ExactSide exact = ExactSide::None);
+                             ExactSide exact = ExactSide::None, const std::function<void()>& meanwhile = {});
 
   private:
     static constexpr float kNearer = 0.02f; // voxels
@@ -59,11 +61,20 @@ class DistanceRestorer {
     /// Voxels.
     [[nodiscard]] double limit(bool inside) const { return reachOf(inside) / window_->voxel; }
     [[nodiscard]] std::vector<NodeBox> finish();
+    void pause();
+    /// pause, once for many calls.
+    void count() {
+        if (++counted_ % kCounted == 0)
+            pause();
+    }
 
     FieldWindow* window_ = nullptr;
     SculptZone zone_;
     DistanceReach reach_;
     ExactSide exact_ = ExactSide::None;
+    static constexpr uint32_t kCounted = 512; // 0.1 to 0.4 ms
+    uint32_t counted_ = 0;
+    const std::function<void()>* meanwhile_ = nullptr;
     std::vector<Node> state_; ///< of nodes of active bricks and those around
     /// Voxels, of nodes of active bricks; of kept ones their distance less kNearer, which may be negative.
     std::vector<float> distance_;

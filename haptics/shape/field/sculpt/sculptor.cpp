@@ -42,14 +42,31 @@ bool sameBytes(std::span<const float, kNodesInBrick> a, std::span<const float, k
 Sculptor::Sculptor(std::shared_ptr<const FieldGrid> base) : base_(std::move(base)), grid_(base_) {}
 
 std::shared_ptr<const FieldGrid> Sculptor::grid() {
-    if (grid_ == nullptr) {
-        std::vector<BrickEdit> edits;
-        edits.reserve(edits_.size());
-        for (const auto& [number, brick] : edits_)
-            edits.push_back({number, brick});
-        grid_ = std::make_shared<const FieldGrid>(base_, std::move(edits));
-    }
+    return preview_ != nullptr ? preview_ : made();
+}
+
+const std::shared_ptr<const FieldGrid>& Sculptor::made() {
+    if (grid_ == nullptr)
+        grid_ = madeWith({});
     return grid_;
+}
+
+std::shared_ptr<const FieldGrid> Sculptor::madeWith(const Bricks& previews) const {
+    std::vector<BrickEdit> edits;
+    edits.reserve(edits_.size() + previews.size());
+    auto next = previews.begin();
+    const auto addBefore = [&](uint64_t end) {
+        for (; next != previews.end() && next->first < end; ++next)
+            if (next->second != nullptr)
+                edits.push_back({next->first, next->second});
+    };
+    for (const auto& [number, brick] : edits_) {
+        addBefore(number);
+        if (next == previews.end() || next->first != number)
+            edits.push_back({number, brick});
+    }
+    addBefore(UINT64_MAX);
+    return std::make_shared<const FieldGrid>(base_, std::move(edits));
 }
 
 void Sculptor::beginStroke() {
@@ -79,6 +96,12 @@ std::vector<Dab> Sculptor::partsOf(const Dab& dab) const {
 
 double Sculptor::margin() const {
     return std::max(base_->inside(), base_->outside()) / base_->layout().voxel + 3.0;
+}
+
+/// A whole ball changes values on one side, as far as that side's distances go.
+double Sculptor::shapeMargin(SculptTool tool) const {
+    const double reach = tool == SculptTool::Carve ? base_->inside() : base_->outside();
+    return reach / base_->layout().voxel + 3.0;
 }
 
 void Sculptor::check(const Dab& dab) const {
@@ -117,7 +140,7 @@ DabReport Sculptor::applyOnce(const Dab& dab) {
     const double radius = changedRadius(*base_, dab);
     if (ballMisses(*base_, dab.centre, radius))
         return {};
-    const SculptZone zone = fillWindow(window_, *grid(), *grid(), dab.centre, radius, margin());
+    const SculptZone zone = fillWindow(window_, *made(), *made(), dab.centre, radius, margin());
     const ExactSide exact = applyTool(window_, *base_, dab, zone);
     return committed(zone, restorer_.run(window_, zone, {base_->inside(), base_->outside()}, exact));
 }
@@ -141,8 +164,7 @@ Sculptor::Shaped Sculptor::joined(const Dab& dab) const {
 }
 
 bool Sculptor::joins(const Dab& dab) const {
-    constexpr double kLargest =
-        1.5; // of the dab's own zone: one restoration is not much larger than that of a dab
+    constexpr double kLargest = 1.75; // of the dab's own zone: six dabs in a row
     if (!isWholeBall(dab) || !shaped_ || shaped_->tool != dab.tool)
         return false;
     const Shaped all = joined(dab);
@@ -163,14 +185,16 @@ DabReport Sculptor::shape(const Dab& dab) {
     check(dab);
     if (!joins(dab))
         restore();
+    dropPreviews();
     if (done_ == 0 || done_ < steps_.size())
         beginStroke();
     const double radius = changedRadius(*base_, dab);
     if (ballMisses(*base_, dab.centre, radius))
         return {};
-    const std::shared_ptr<const FieldGrid> now = grid();
+    const std::shared_ptr<const FieldGrid> now = made();
     Shaped shaped = joined(dab);
-    const SculptZone zone = fillWindow(window_, *now, *now, dab.centre, radius, margin());
+    const SculptZone zone =
+        fillShapeWindow(window_, *now, dab.centre, radius, margin(), shapeMargin(dab.tool));
     shaped.exact = applyTool(window_, *base_, dab, zone);
     const std::vector<NodeBox> changed = changedNodes(window_);
     if (!changed.empty())
@@ -178,17 +202,20 @@ DabReport Sculptor::shape(const Dab& dab) {
     return committed(zone, changed);
 }
 
-DabReport Sculptor::restore() {
-    if (!shaped_)
+DabReport Sculptor::restore(const std::function<void()>& meanwhile) {
+    if (!shaped_) {
+        dropPreviews();
         return {};
+    }
     const Shaped shaped = *std::exchange(shaped_, std::nullopt);
-    const std::shared_ptr<const FieldGrid> now = grid();
+    const std::shared_ptr<const FieldGrid> now = made();
     const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
     // Nodes that the shape changed and the restoration puts back are committed, too: else bricks that share
     // such a node keep two values.
     std::vector<NodeBox> changed = changedNodes(window_);
     const std::vector<NodeBox> restored =
-        restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact);
+        restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact, meanwhile);
+    dropPreviews();
     changed.insert(changed.end(), restored.begin(), restored.end());
     DabReport report = committed(zone, changed);
     report.removed = 0.0; // `shape` has told it
@@ -230,40 +257,43 @@ void Sculptor::replace(uint32_t number, const BrickPtr& brick) {
         edits_[number] = brick;
 }
 
-/// All bricks that have changed nodes: those at the faces of a brick belong to its neighbours, too.
-size_t Sculptor::commit(const std::vector<NodeBox>& changed) {
+/// All bricks that have changed nodes: those at the faces of a brick belong to its neighbours, too. Null: the
+/// base's brick.
+Sculptor::Bricks Sculptor::changedBricks(const FieldWindow& window, const FieldGrid& from,
+                                         const std::vector<NodeBox>& changed) const {
     std::set<std::array<int, 3>> bricks;
     for (const NodeBox& box : changed) {
-        const glm::ivec3 low = glm::max(window_.first + box.low - 1, glm::ivec3(0)) / kBrickCells;
-        const glm::ivec3 high = glm::min((window_.first + box.high) / kBrickCells, base_->bricks() - 1);
+        const glm::ivec3 low = glm::max(window.first + box.low - 1, glm::ivec3(0)) / kBrickCells;
+        const glm::ivec3 high = glm::min((window.first + box.high) / kBrickCells, base_->bricks() - 1);
         for (int z = low.z; z <= high.z; ++z)
             for (int y = low.y; y <= high.y; ++y)
                 for (int x = low.x; x <= high.x; ++x)
                     bricks.insert({z, y, x});
     }
-    size_t count = 0;
+    Bricks made;
     for (const auto& [z, y, x] : bricks)
-        count += commitBrick({x, y, z}) ? 1 : 0;
-    if (count > 0)
-        grid_ = nullptr;
-    return count;
+        if (std::optional<BrickPtr> brick = changedBrick(window, from, {x, y, z}))
+            made.emplace(base_->brickNumber({x, y, z}), std::move(*brick));
+    return made;
 }
 
-bool Sculptor::commitBrick(const glm::ivec3& brick) {
+/// A brick of `from` with the window's values, where they differ.
+std::optional<Sculptor::BrickPtr> Sculptor::changedBrick(const FieldWindow& window, const FieldGrid& from,
+                                                         const glm::ivec3& brick) const {
     std::array<float, kNodesInBrick> before, after, base;
-    grid_->copyBrick(brick, before);
+    from.copyBrick(brick, before);
     after = before;
     const glm::ivec3 first = kBrickCells * brick;
-    const glm::ivec3 low = glm::max(window_.first - first, glm::ivec3(0));
-    const glm::ivec3 high = glm::min(window_.first + window_.size - 1 - first, glm::ivec3(kBrickCells));
+    const glm::ivec3 low = glm::max(window.first - first, glm::ivec3(0));
+    const glm::ivec3 high = glm::min(window.first + window.size - 1 - first, glm::ivec3(kBrickCells));
     // The last node of a row belongs to the next brick, unless the window ends there.
-    const auto copy = [&](const glm::ivec3& from, int end) {
-        const glm::ivec3 node = first + from - window_.first;
-        if (from.x > end || !window_.cellIsActive(node))
+    const auto copy = [&](const glm::ivec3& begin, int end) {
+        const glm::ivec3 node = first + begin - window.first;
+        if (begin.x > end || !window.cellIsActive(node))
             return;
-        const float* const values = &window_.value[window_.index(node)];
-        float* const to = &after[brickNode(from)];
-        if (const int count = end - from.x + 1; count == kBrickCells)
+        const float* const values = &window.value[window.index(node)];
+        float* const to = &after[brickNode(begin)];
+        if (const int count = end - begin.x + 1; count == kBrickCells)
             std::memcpy(to, values, kBrickCells * sizeof(float)); // no call, as the length is known
         else
             std::copy_n(values, count, to);
@@ -274,18 +304,25 @@ bool Sculptor::commitBrick(const glm::ivec3& brick) {
             copy({kBrickCells, y, z}, high.x);
         }
     if (sameBytes(before, after))
-        return false;
-    const uint32_t number = base_->brickNumber(brick);
+        return std::nullopt;
     base_->copyBrick(brick, base);
-    const BrickPtr made =
-        sameBytes(after, base)
-            ? nullptr
-            : editedBrick(first, glm::min(glm::ivec3(kBrickCells), base_->layout().cells - first), after);
-    const auto [place, isNew] = steps_.back().values.try_emplace(number, Replaced{current(number), made});
-    if (!isNew)
-        place->second.after = made;
-    replace(number, made);
-    return true;
+    if (sameBytes(after, base))
+        return nullptr;
+    return editedBrick(first, glm::min(glm::ivec3(kBrickCells), base_->layout().cells - first), after);
+}
+
+size_t Sculptor::commit(const std::vector<NodeBox>& changed) {
+    const Bricks made = changedBricks(window_, *grid_, changed);
+    for (const auto& [number, brick] : made) {
+        const auto [place, isNew] =
+            steps_.back().values.try_emplace(number, Replaced{current(number), brick});
+        if (!isNew)
+            place->second.after = brick;
+        replace(number, brick);
+    }
+    if (!made.empty())
+        grid_ = nullptr;
+    return made.size();
 }
 
 void Sculptor::goBackOrOn(const Step& step, bool back) {

@@ -8,6 +8,7 @@
 #include "haptics/shape/field/sculpt/sculpt_tool.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,7 +32,7 @@ class Sculptor {
     explicit Sculptor(std::shared_ptr<const FieldGrid> base);
 
     [[nodiscard]] const std::shared_ptr<const FieldGrid>& base() const { return base_; }
-    /// The field as it is now. A new one after each change.
+    /// The field as it is now, with previews. A new one after each change.
     [[nodiscard]] std::shared_ptr<const FieldGrid> grid();
     /// Null where nothing is painted.
     [[nodiscard]] std::shared_ptr<const FieldColors> colors();
@@ -48,10 +49,17 @@ class Sculptor {
     DabReport shape(const Dab& dab);
     /// True where the next `shape` leaves the distances of the last ones to the same `restore`.
     [[nodiscard]] bool joins(const Dab& dab) const;
-    /// The second half: distances everywhere. Every other change does so before its own.
-    DabReport restore();
+    /// The second half: distances everywhere. Every other change does so before its own. `meanwhile` is
+    /// called between its steps, a millisecond or two apart at most; it may call
+    /// `preview`, `grid` and `takeChangedBricks`.
+    DabReport restore(const std::function<void()>& meanwhile = {});
     /// `shape` was called since `restore`.
     [[nodiscard]] bool owesDistances() const { return shaped_.has_value(); }
+    /// What `shape` would make of the field as it is now, which may owe distances, and of previews before:
+    /// `grid` has it until the end of the next change of another kind. No change itself, and no part of a
+    /// stroke. Only for isWholeBall.
+    DabReport preview(const Dab& dab);
+    [[nodiscard]] bool previews() const { return !previewed_.empty(); }
 
     /// Throws Error where `apply` would: checkDab, and more nodes at once than kMostWindowNodes.
     void check(const Dab& dab) const;
@@ -94,6 +102,8 @@ class Sculptor {
 
     [[nodiscard]] std::vector<Dab> partsOf(const Dab& dab) const;
     [[nodiscard]] double margin() const; ///< voxels around what a dab changes by itself
+    /// The same, of what the first half of one changes.
+    [[nodiscard]] double shapeMargin(SculptTool tool) const;
     DabReport applyOnce(const Dab& dab);
     DabReport committed(const SculptZone& zone, const std::vector<NodeBox>& changed);
     DabReport paint(const Dab& dab);
@@ -102,18 +112,28 @@ class Sculptor {
     void goBackOrOn(const Step& step, bool back);
     [[nodiscard]] BrickPtr current(uint32_t number) const;
     void replace(uint32_t number, const BrickPtr& brick);
+    /// Bricks by FieldGrid::brickNumber.
+    using Bricks = std::map<uint32_t, BrickPtr>;
+    [[nodiscard]] const std::shared_ptr<const FieldGrid>& made(); ///< without previews
+    [[nodiscard]] std::shared_ptr<const FieldGrid> madeWith(const Bricks& previews) const;
+    [[nodiscard]] Bricks changedBricks(const FieldWindow& window, const FieldGrid& from,
+                                       const std::vector<NodeBox>& changed) const;
+    [[nodiscard]] std::optional<BrickPtr> changedBrick(const FieldWindow& window, const FieldGrid& from,
+                                                       const glm::ivec3& brick) const;
     size_t commit(const std::vector<NodeBox>& changed);
-    bool commitBrick(const glm::ivec3& brick);
+    void dropPreviews();
 
     std::shared_ptr<const FieldGrid> base_, grid_; ///< grid_ is null where it is to be made
-    std::map<uint32_t, BrickPtr> edits_;           ///< bricks that differ from the base's
+    Bricks edits_;                                 ///< bricks that differ from the base's
+    Bricks previewed_;                             ///< null: the base's brick
+    std::shared_ptr<const FieldGrid> preview_;     ///< null where there are none
     std::map<uint32_t, ColorBrickPtr> painted_;    ///< those that are not white
     std::shared_ptr<const FieldColors> colors_;    ///< null where they are to be made, or none is painted
     std::set<uint32_t> changed_;                   ///< since takeChangedBricks
     std::vector<Step> steps_;                      ///< strokes; the first `done_` are applied
     size_t done_ = 0;
     std::optional<Shaped> shaped_;
-    FieldWindow window_;
+    FieldWindow window_, previewWindow_;
     DistanceRestorer restorer_;
 };
 

@@ -1,9 +1,11 @@
 #include "haptics/shape/field/sculpt/tool_values.h"
 
 #include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/vectors.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -98,6 +100,27 @@ double borderDistance(const FieldGrid& grid, const glm::ivec3& node) {
     return (0.5 - std::min({within.x, within.y, within.z})) * grid.layout().voxel;
 }
 
+/// wholeBall in a brick's row: the same numbers, eight at once.
+void wholeBallRow(float* values, const glm::ivec3& first, const SculptZone& zone, bool carves, float voxel,
+                  float radius) {
+    constexpr uint32_t kAll = (1u << kBrickCells) - 1u;
+    const Eight value = eightAt(values);
+    const uint32_t negative = lanes(value < 0.0f), own = carves ? negative : ~negative & kAll;
+    if (own == 0)
+        return;
+    const glm::vec3 centre(zone.centre), at(first);
+    const Eight x = at.x + kLane - centre.x;
+    const float y = at.y - centre.y, z = at.z - centre.z;
+    const Eight squared = x * x + y * y + z * z;
+    const Eight ball = voxel * root(squared) - radius;
+    const Eight next = carves ? larger(value, -ball) : smaller(value, ball);
+    for (uint32_t changed = own & lanes(next != value); changed != 0; changed &= changed - 1) {
+        const int i = std::countr_zero(changed);
+        if (!zone.contains(first + glm::ivec3(i, 0, 0)))
+            values[i] = next[i];
+    }
+}
+
 /// The side where a whole ball's distance is exact, and its values outside of the zone.
 ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone) {
     if (!isWholeBall(dab))
@@ -106,6 +129,10 @@ ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone)
     const auto voxel = static_cast<float>(window.voxel), radius = static_cast<float>(dab.radius);
     const glm::vec3 centre(zone.centre);
     window.eachActiveRow([&](const glm::ivec3& first, size_t index, int count) {
+        if (count == kBrickCells) {
+            wholeBallRow(&window.value[index], first, zone, carves, voxel, radius);
+            return;
+        }
         for (int i = 0; i < count; ++i) {
             const glm::ivec3 node = first + glm::ivec3(i, 0, 0);
             float& value = window.value[index + static_cast<size_t>(i)];
