@@ -46,9 +46,8 @@ struct SculptFigures {
 
 /// The servo writes dabs into a ring; a thread of this class pops them, applies them to copy-on-write bricks
 /// and offers the scene with the new field, at least every kPublish while edits come. What the hand makes
-/// while distances are restored is felt at once as a preview, and made after the restoration: how long that
-/// takes is not felt. Functions without a note: the servo's owner thread. The worker has no thread until the
-/// first tool is active.
+/// while distances are restored is felt at once as a preview, and made after the restoration. Functions
+/// without a note: the servo's owner thread. The worker has no thread until the first tool is active.
 class LiveSculptor {
   public:
     static constexpr double kPublish = 0.004; ///< s of dabs in one publication, and one dab more
@@ -68,8 +67,8 @@ class LiveSculptor {
     /// The scene that the servo was offered under `number`: nothing is sculpted in it.
     void begin(uint32_t number, std::shared_ptr<const HapticScene> scene, ScenePtr source);
     /// Another scene of the same objects: the servo is offered it with the sculpted fields (offerSculpted).
-    /// Null where nothing is sculpted: the caller offers it as it is. Waits for a dab. Returns the number of
-    /// the root.
+    /// Null where nothing is sculpted: the caller offers it as it is. Waits for a dab, and for those that are
+    /// felt as previews, with their restorations. Returns the number of the root.
     [[nodiscard]] std::optional<uint32_t> carryOver(std::shared_ptr<const HapticScene> scene, ScenePtr source,
                                                     SceneSwap swap);
 
@@ -124,8 +123,8 @@ class LiveSculptor {
     uint32_t root_ = 0;
     std::vector<SculptEntry> journal_; // of the root
     size_t sent_ = 0;                  // entries of it that were published
-    uint64_t made_ = 0,
-             offered_ = 0; // ticks of the oldest edits: not offered yet, in the last offer; 0: none
+    // Ticks of the oldest edits; 0: none.
+    uint64_t made_ = 0, offered_ = 0; // not offered yet; in the last offer
     uint64_t memory_ = 0;
     double memoryAt_ = -1.0;  // s
     double restoring_ = 0.0;  // s, of the last dab or restoration

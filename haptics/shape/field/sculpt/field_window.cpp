@@ -127,10 +127,7 @@ void fill(FieldWindow& window, const FieldGrid& before, const FieldGrid& now) {
             fillRows(window, now, box, window.value);
         else
             window.eachRow(box, [&](const glm::ivec3&, size_t index, int count) {
-                if (count == kBrickCells)
-                    std::memcpy(&window.value[index], &window.before[index], kBrickCells * sizeof(float));
-                else
-                    std::copy_n(&window.before[index], count, &window.value[index]);
+                copyRow(&window.before[index], count, &window.value[index]);
             });
 }
 

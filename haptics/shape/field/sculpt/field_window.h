@@ -5,8 +5,10 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace touchstone {
@@ -86,6 +88,13 @@ struct FieldWindow {
                 visit(glm::ivec3(box.low.x, y, z), index({box.low.x, y, z}), box.high.x - box.low.x + 1);
     }
 };
+
+inline void copyRow(const float* from, int count, float* to) noexcept {
+    if (count == kBrickCells)
+        std::memcpy(to, from, kBrickCells * sizeof(float)); // no call, as the length is known
+    else
+        std::copy_n(from, count, to);
+}
 
 /// A ball: of the nodes that a dab changes by itself.
 struct SculptZone {

@@ -293,10 +293,7 @@ std::optional<Sculptor::BrickPtr> Sculptor::changedBrick(const FieldWindow& wind
             return;
         const float* const values = &window.value[window.index(node)];
         float* const to = &after[brickNode(begin)];
-        if (const int count = end - begin.x + 1; count == kBrickCells)
-            std::memcpy(to, values, kBrickCells * sizeof(float)); // no call, as the length is known
-        else
-            std::copy_n(values, count, to);
+        copyRow(values, end - begin.x + 1, to);
     };
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y) {

@@ -100,19 +100,20 @@ double borderDistance(const FieldGrid& grid, const glm::ivec3& node) {
     return (0.5 - std::min({within.x, within.y, within.z})) * grid.layout().voxel;
 }
 
-/// wholeBall in a brick's row: the same numbers, eight at once.
-void wholeBallRow(float* values, const glm::ivec3& first, const SculptZone& zone, bool carves, float voxel,
-                  float radius) {
-    constexpr uint32_t kAll = (1u << kBrickCells) - 1u;
-    const Eight value = eightAt(values);
-    const uint32_t negative = lanes(value < 0.0f), own = carves ? negative : ~negative & kAll;
+/// wholeBall in at most eight nodes of a row.
+void wholeBallRow(float* values, const glm::ivec3& first, int count, const SculptZone& zone, bool carves,
+                  float voxel, float radius) {
+    std::array<float, kBrickCells> nodes{};
+    copyRow(values, count, nodes.data());
+    const Eight value = eightAt(nodes.data());
+    const uint32_t negative = lanes(value < 0.0f),
+                   own = (carves ? negative : ~negative) & ((1u << count) - 1u);
     if (own == 0)
         return;
     const glm::vec3 centre(zone.centre), at(first);
     const Eight x = at.x + kLane - centre.x;
     const float y = at.y - centre.y, z = at.z - centre.z;
-    const Eight squared = x * x + y * y + z * z;
-    const Eight ball = voxel * root(squared) - radius;
+    const Eight ball = voxel * root(x * x + y * y + z * z) - radius;
     const Eight next = carves ? larger(value, -ball) : smaller(value, ball);
     for (uint32_t changed = own & lanes(next != value); changed != 0; changed &= changed - 1) {
         const int i = std::countr_zero(changed);
@@ -127,20 +128,10 @@ ExactSide wholeBall(FieldWindow& window, const Dab& dab, const SculptZone& zone)
         return ExactSide::None;
     const bool carves = dab.tool == SculptTool::Carve;
     const auto voxel = static_cast<float>(window.voxel), radius = static_cast<float>(dab.radius);
-    const glm::vec3 centre(zone.centre);
     window.eachActiveRow([&](const glm::ivec3& first, size_t index, int count) {
-        if (count == kBrickCells) {
-            wholeBallRow(&window.value[index], first, zone, carves, voxel, radius);
-            return;
-        }
-        for (int i = 0; i < count; ++i) {
-            const glm::ivec3 node = first + glm::ivec3(i, 0, 0);
-            float& value = window.value[index + static_cast<size_t>(i)];
-            if ((value < 0.0f) != carves || zone.contains(node))
-                continue;
-            const float ball = voxel * glm::distance(glm::vec3(node), centre) - radius;
-            value = carves ? std::max(value, -ball) : std::min(value, ball);
-        }
+        for (int i = 0; i < count; i += kBrickCells)
+            wholeBallRow(&window.value[index + static_cast<size_t>(i)], first + glm::ivec3(i, 0, 0),
+                         std::min(count - i, kBrickCells), zone, carves, voxel, radius);
     });
     return carves ? ExactSide::Inside : ExactSide::Outside;
 }
