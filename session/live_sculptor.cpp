@@ -87,6 +87,7 @@ std::optional<uint32_t> LiveSculptor::carryOver(std::shared_ptr<const HapticScen
     sculptor_->moveTo(std::move(scene));
     source_ = std::move(source);
     root_ = servo_.nextSceneNumber();
+    noteOffered();
     servo_.offerSculpted(published(true), swap);
     // What was published before is of a root that nobody shows any more, but its bricks have changed.
     const std::scoped_lock lock(mutex_);
@@ -200,10 +201,13 @@ void LiveSculptor::work() {
 
 std::optional<SculptEntry> LiveSculptor::next() {
     const std::scoped_lock lock(mutex_);
-    if (waiting_.empty())
-        return std::nullopt;
+    return waiting_.empty() ? std::nullopt : std::optional(takeFront());
+}
+
+SculptEntry LiveSculptor::takeFront() {
     const SculptEntry entry = waiting_.front();
     waiting_.pop_front();
+    previewed_ -= previewed_ > 0 ? 1 : 0;
     return entry;
 }
 
@@ -234,6 +238,8 @@ void LiveSculptor::applyWaiting() {
             ++shapes;
         } else {
             apply({.kind = SculptEntryKind::Restore, .object = *object});
+            if (journal_.size() == made || journal_.back().kind != SculptEntryKind::Restore)
+                break;                // it failed: the next change begins with it
             shapes = makePreviewed(); // in the same publication: what is felt stays
         }
         if (journal_.size() > made)
@@ -284,8 +290,7 @@ int LiveSculptor::makePreviewed() {
             break;
         {
             const std::scoped_lock lock(mutex_);
-            waiting_.pop_front();
-            --previewed_;
+            (void)takeFront();
         }
         apply(begins ? *first : as(SculptEntryKind::Shape, *first), true);
         shapes += begins ? 0 : 1;
@@ -297,11 +302,16 @@ int LiveSculptor::makePreviewed() {
     return shapes;
 }
 
-void LiveSculptor::publish() {
-    sculptor_->settle();
-    // A scene that no tick has adopted leaves its edits to this one.
+/// A scene that no tick has adopted leaves its edits to the next one. Where one is adopted right here, what
+/// is measured is at most too long.
+void LiveSculptor::noteOffered() {
     offered_ = servo_.editedPending() && offered_ > 0 ? offered_ : made_;
     made_ = 0;
+}
+
+void LiveSculptor::publish() {
+    sculptor_->settle();
+    noteOffered();
     servo_.offerEdited(published(false));
 }
 
@@ -311,9 +321,7 @@ std::optional<SculptEntry> LiveSculptor::nextBeside() {
     gather();
     if (waiting_.empty() || wanted_.load(std::memory_order_relaxed) || !sculptor_->joins(waiting_.front()))
         return std::nullopt;
-    const SculptEntry entry = waiting_.front();
-    waiting_.pop_front();
-    return entry;
+    return takeFront();
 }
 
 /// `felt`: as a preview, before.
@@ -343,7 +351,8 @@ void LiveSculptor::apply(const SculptEntry& entry, bool felt) {
     const std::scoped_lock lock(mutex_);
     figures_.dabs += report.dabs;
     figures_.removed += report.removed;
-    figures_.problem = std::move(problem);
+    if (entry.kind != SculptEntryKind::Restore || !problem.empty()) // nobody asked for it
+        figures_.problem = std::move(problem);
     figures_.longestDab = std::max(figures_.longestDab, seconds);
 }
 

@@ -92,11 +92,13 @@ class LiveSculptor {
     void work();
     void gather();
     [[nodiscard]] std::optional<SculptEntry> next();
+    SculptEntry takeFront(); // mutex_ is held
     [[nodiscard]] std::optional<SculptEntry> nextBeside();
     [[nodiscard]] std::optional<SculptEntry> nextPreview(int32_t object);
     void applyWaiting();
     void previewWaiting(int32_t object);
     [[nodiscard]] int makePreviewed();
+    void noteOffered();
     void publish();
     void apply(const SculptEntry& entry, bool felt = false);
     [[nodiscard]] ReshapedScene published(bool whole);

@@ -207,7 +207,7 @@ DabReport Sculptor::restore(const std::function<void()>& meanwhile) {
         dropPreviews();
         return {};
     }
-    const Shaped shaped = *std::exchange(shaped_, std::nullopt);
+    const Shaped shaped = *shaped_; // still owed where `meanwhile` throws
     const std::shared_ptr<const FieldGrid> now = made();
     const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
     // Nodes that the shape changed and the restoration puts back are committed, too: else bricks that share
@@ -215,6 +215,7 @@ DabReport Sculptor::restore(const std::function<void()>& meanwhile) {
     std::vector<NodeBox> changed = changedNodes(window_);
     const std::vector<NodeBox> restored =
         restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact, meanwhile);
+    shaped_.reset();
     dropPreviews();
     changed.insert(changed.end(), restored.begin(), restored.end());
     DabReport report = committed(zone, changed);
@@ -374,6 +375,8 @@ uint64_t Sculptor::memoryBytes() const {
             colors.insert(recolored.after.get());
         }
     }
+    for (const auto& [number, brick] : previewed_)
+        bricks.insert(brick.get());
     bricks.erase(nullptr);
     colors.erase(nullptr);
     return bricks.size() * sizeof(EditedBrick) + colors.size() * sizeof(ColorBrick);

@@ -50,8 +50,8 @@ class Sculptor {
     /// True where the next `shape` leaves the distances of the last ones to the same `restore`.
     [[nodiscard]] bool joins(const Dab& dab) const;
     /// The second half: distances everywhere. Every other change does so before its own. `meanwhile` is
-    /// called between its steps, a millisecond or two apart at most; it may call
-    /// `preview`, `grid` and `takeChangedBricks`.
+    /// called between its steps, a millisecond or two apart at most; it may call `preview` and
+    /// `takeChangedBricks`, and read what there is. Where it throws, the distances are still owed.
     DabReport restore(const std::function<void()>& meanwhile = {});
     /// `shape` was called since `restore`.
     [[nodiscard]] bool owesDistances() const { return shaped_.has_value(); }
@@ -72,7 +72,7 @@ class Sculptor {
     /// FieldGrid::brickNumber of the bricks whose values or colours differ from those at the last call, in
     /// order.
     [[nodiscard]] std::vector<uint32_t> takeChangedBricks();
-    /// Of all bricks that the field and its history hold.
+    /// Of all bricks that the field, its previews and its history hold.
     [[nodiscard]] uint64_t memoryBytes() const;
 
   private:
