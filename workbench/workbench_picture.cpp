@@ -200,6 +200,7 @@ void WorkbenchWindow::describeHand(PanelInput& input) {
     input.servo = &touch_.figures();
     input.servoStart = touch_.startedAt();
     input.forcePresses = touch_.forceSwitch().state().presses();
+    input.forceKeyLate = forceKey_.late();
     input.typing = ImGui::GetIO().WantTextInput;
     input.timeline = &timeline_;
     input.dialog = &dialog_;

@@ -48,6 +48,7 @@ struct PanelInput {
     std::vector<std::string> warnings;
     std::string problem;       ///< of the last load, with its remedy; empty: none
     uint32_t forcePresses = 0; ///< presses of the force key so far
+    bool forceKeyLate = false; ///< a press only switches the force off (ForceKey::late)
     bool typing = false;       ///< a text field has the focus
     double now = 0.0;          ///< s, secondsNow() of the frame
     double servoStart = 0.0;   ///< CLOCK_MONOTONIC, s, at time 0 of the ticks

@@ -27,6 +27,9 @@ class ForceKey {
     /// Main thread, at the start of a frame. Returns whether the force is on; `on`: its state in the previous
     /// frame.
     [[nodiscard]] bool settle(bool on, bool mayGiveBack, std::optional<uint32_t> watched);
+    /// Main thread: the watch was late or failed a moment ago, and until that is over a press only switches
+    /// the force off.
+    [[nodiscard]] bool late() const noexcept { return late_ > 0; }
     /// Main thread: the panels switched the force on or off.
     void set(bool on);
 

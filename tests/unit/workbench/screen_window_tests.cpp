@@ -114,10 +114,10 @@ TEST_F(ScreenWindowTest, AtRestThePictureHasTheWindowsResolution) {
     // What moves by itself is drawn over it.
     openByPath(TOUCHSTONE_ASSETS "/moving.glb");
     until("the moving model", [](const Json& s) { return s["model"] == "moving.glb" && !s["loading"]; });
-    stateIs("kept");
-    const Json before = later(), after = later();
-    EXPECT_EQ(after["picture"]["state"], "kept");
-    EXPECT_GT(after["frames"].get<int>(), before["frames"].get<int>());
+    // On a machine that has much else to do its resolution changes, and it begins anew; not by what moves.
+    until("twenty moving pictures over a kept one", [](const Json& s) {
+        return s["picture"]["state"] == "kept" && s["picture"]["frames"].get<int>() >= 20;
+    });
     expectSilentEnd();
 }
 
