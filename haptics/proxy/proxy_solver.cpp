@@ -36,6 +36,9 @@ constexpr uint32_t kCircling = 10;
 constexpr int kLiftsPerMove = 3;
 /// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
 constexpr int kLeaps = 2;
+/// Slopes of the ramps over kinks between a shape's cells: over a torus of 25 mm voxels of 0.5 mm meet at
+/// 0.02 rad.
+constexpr double kLowRamp = 1.0 / 16.0, kHighRamp = 0.25;
 
 } // namespace
 
@@ -225,10 +228,23 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
     return true;
 }
 
+/// To a place on the surface that holds the proxy with this normal: along the chord where the surface rises,
+/// along the tangent plane and then down where it falls. Kinks between cells may stand above either; then
+/// over them, on a ramp. Made whole or not at all.
+bool ProxySolver::goOver(const glm::dvec3& place, const glm::dvec3& normal) noexcept {
+    const glm::dvec3 start = state_.proxy, way = place - start;
+    const double length = glm::length(way), fall = std::max(-glm::dot(way, normal), 0.0);
+    for (const double height : {fall, std::max(2.0 * fall, kLowRamp * length), kHighRamp * length}) {
+        if ((height == 0.0 || goStraight(place + height * normal)) && goStraight(place))
+            return true;
+        placeAt(start);
+    }
+    return false;
+}
+
 /// From where one shape alone holds the proxy to where it rests on that shape, which the shape knows: a
-/// tangent plane finds it only in the limit, in some eight moves on a curved field. Where the surface rises
-/// the way is the chord; where it falls it goes along the tangent plane and then down. Made whole or not at
-/// all, and only towards the goal; the next move sees whether the proxy rests there.
+/// tangent plane finds it only in the limit, in some eight moves on a curved field. Made whole or not at all,
+/// and only towards the goal; the next move sees whether the proxy rests there.
 [[gnu::noinline]] bool ProxySolver::leapToRest(const glm::dvec3& goal) noexcept {
     --leaps_;
     const std::span<const Contact> contacts(rest_.contacts.data(), rest_.contactCount);
@@ -254,13 +270,8 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
     const Contact& falls = *std::min_element(contacts.begin(), contacts.end(), [&](auto& a, auto& b) {
         return glm::dot(way, a.normal) < glm::dot(way, b.normal);
     });
-    const double rise = glm::dot(way, falls.normal);
-    // Over what the tangent plane meets, no higher than the way falls.
-    const auto overEdge = [&](double height) { return goStraight(place + height * falls.normal); };
-    if ((rise < 0.0 && !overEdge(-rise) && !overEdge(-2.0 * rise)) || !goStraight(place)) {
-        placeAt(start);
+    if (!goOver(place, falls.normal))
         return false;
-    }
     lastMove_ = length;
     return true;
 }

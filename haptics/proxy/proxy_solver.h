@@ -112,6 +112,7 @@ class ProxySolver {
     void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
+    [[nodiscard]] bool goOver(const glm::dvec3& place, const glm::dvec3& normal) noexcept;
     [[nodiscard]] bool leapToRest(const glm::dvec3& goal) noexcept;
     [[nodiscard]] bool circles(const glm::dvec3& goal, double length) noexcept;
     void slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share, double covered) noexcept;
