@@ -212,8 +212,8 @@ TEST(SculptingSweep, TwoHundredStrokesLeaveADistanceAndAreTakenBackToTheBytes) {
     const double there = meshFromField(field, mesh), back = fieldFromMesh(*sculpted, meshed, mesh);
     std::printf("%zu strokes of %d dabs, %zu triangles: mesh from field %.3f voxels, field from mesh %.3f\n",
                 hashes.size() - 1, kDabs, mesh.corners.size() / 3, there, back);
-    EXPECT_LT(there, 0.5);
-    EXPECT_LT(back, 0.75); // a cell that the surface passes twice has one vertex: 0.61
+    EXPECT_LT(there, 0.4);
+    EXPECT_LT(back, 0.4); // amid the crossings, as OpenVDB puts vertices, 0.61
     for (const double band : {3.0, 12.0}) {
         const Slopes slopes = slopesOf(*sculpted, meshed, band);
         std::printf("within %2.0f voxels: %zu nodes away from kinks, |grad f| off by %.4f (mean), %.3f at "

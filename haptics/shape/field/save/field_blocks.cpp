@@ -1,7 +1,7 @@
 #include "haptics/shape/field/save/field_blocks.h"
 
-#include "engine/volume/mesh_corners.h"
 #include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/save/field_faces.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -62,12 +62,13 @@ FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const g
     });
     const FieldShape shape(grid);
     const FieldLayout& layout = grid->layout();
-    std::vector<uint32_t> renumbered(points.size(), UINT32_MAX);
-    for (const uint32_t corner : triangleCorners(quads, {})) {
+    const FieldFaces faces = facesOf(*grid, points, quads);
+    std::vector<uint32_t> renumbered(faces.vertices.size(), UINT32_MAX);
+    for (const uint32_t corner : faces.corners) {
         uint32_t& number = renumbered[corner];
         if (number == UINT32_MAX) {
             number = static_cast<uint32_t>(made.positions.size());
-            const glm::dvec3 place = layout.origin + layout.voxel * placeOf(corner);
+            const glm::dvec3 place = layout.origin + layout.voxel * faces.vertices[corner];
             const glm::dvec3 normal = shape.shadingNormal(0, place);
             made.positions.emplace_back(place);
             if (colors != nullptr)

@@ -1,8 +1,8 @@
 #include "haptics/shape/field/save/field_export.h"
 
 #include "engine/core/error.h"
-#include "engine/volume/mesh_corners.h"
 #include "haptics/shape/field/field_shape.h"
+#include "haptics/shape/field/save/field_faces.h"
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
@@ -57,13 +57,13 @@ openvdb::FloatGrid::Ptr gridOfField(const FieldGrid& field, double scale) {
 SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Similarity& sceneFromObject,
                         const FieldColors* colors) {
     std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Vec3I> triangles; // none without adaptivity
     std::vector<openvdb::Vec4I> quads;
     tbb::task_arena(2).execute([&] {
         openvdb::initialize();
         openvdb::tools::volumeToMesh(*gridOfField(*field, 1.0), points, triangles, quads, 0.0, 0.0);
     });
-    if (quads.size() + triangles.size() > kMostSurfaceFaces)
+    if (quads.size() > kMostSurfaceFaces)
         throw Error("sculpting", "",
                     "the surface has " + std::to_string(quads.size()) + " faces, of which " +
                         std::to_string(kMostSurfaceFaces) + " fit",
@@ -71,18 +71,18 @@ SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Sim
     SurfaceMesh mesh;
     const FieldLayout& layout = field->layout();
     const FieldShape shape(field);
-    mesh.positions.reserve(points.size());
-    mesh.normals.reserve(points.size());
-    for (const openvdb::Vec3s& point : points) {
-        const glm::dvec3 place =
-            layout.origin + layout.voxel * glm::dvec3(glm::vec3(point.x(), point.y(), point.z()));
+    FieldFaces faces = facesOf(*field, points, quads);
+    mesh.positions.reserve(faces.vertices.size());
+    mesh.normals.reserve(faces.vertices.size());
+    for (const glm::dvec3& vertex : faces.vertices) {
+        const glm::dvec3 place = layout.origin + layout.voxel * vertex;
         const glm::dvec3 normal = sceneFromObject.direction(shape.shadingNormal(0, place));
         mesh.positions.emplace_back(sceneFromObject.point(place));
         if (colors != nullptr)
             mesh.colors.emplace_back(colors->at(place), 1.0f);
         mesh.normals.emplace_back(glm::dot(normal, normal) > 0.0 ? normal : glm::dvec3(0.0, 1.0, 0.0));
     }
-    mesh.corners = triangleCorners(quads, triangles);
+    mesh.corners = std::move(faces.corners);
     return mesh;
 }
 

@@ -1,0 +1,88 @@
+#include "haptics/shape/field/save/field_faces.h"
+
+#include "haptics/shape/mesh/triangle.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace touchstone {
+
+namespace {
+
+glm::dvec3 placeOf(const openvdb::Vec3s& point) {
+    return glm::dvec3(glm::vec3(point.x(), point.y(), point.z()));
+}
+
+/// Along the gradient onto the zero of the cell's polynomial, or as near to it as the cell goes.
+glm::dvec3 ontoSurface(const FieldGrid& field, const glm::dvec3& vertex) {
+    constexpr int kSteps = 8;
+    constexpr double kOnSurface = 1e-6; // voxels
+    const glm::ivec3 index = field.cellAt(vertex);
+    const FieldCell cell = field.cell(index);
+    glm::dvec3 u = vertex - glm::dvec3(index);
+    double value = cell.value(u);
+    for (int step = 0; step < kSteps && std::abs(value) > kOnSurface * field.layout().voxel; ++step) {
+        const glm::dvec3 slope = cell.gradient(u);
+        const double steep = glm::dot(slope, slope);
+        if (!(steep > 0.0))
+            break;
+        const glm::dvec3 to = glm::clamp(u - value / steep * slope, 0.0, 1.0);
+        const double there = cell.value(to);
+        if (!(std::abs(there) < std::abs(value)))
+            break;
+        u = to;
+        value = there;
+    }
+    return glm::dvec3(index) + u;
+}
+
+/// Where the surface crosses the edge of the grid that the quad is dual to: the one that its four cells
+/// share.
+std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const std::array<glm::dvec3, 4>& points) {
+    glm::ivec3 low(INT_MAX), high(INT_MIN);
+    for (const glm::dvec3& point : points) {
+        const glm::ivec3 cell(glm::floor(point));
+        low = glm::min(low, cell);
+        high = glm::max(high, cell);
+    }
+    const glm::ivec3 size = high - low;
+    if (size.x + size.y + size.z != 2 || size.x > 1 || size.y > 1 || size.z > 1)
+        return std::nullopt; // a point on a face of its cell: floats do not tell whose it is
+    glm::ivec3 along = glm::ivec3(1) - size;
+    if (!field.contains(low) || !field.contains(high))
+        return std::nullopt;
+    const double f = field.node(high), g = field.node(high + along);
+    if ((f < 0.0) == (g < 0.0))
+        return std::nullopt;
+    return glm::dvec3(high) + f / (f - g) * glm::dvec3(along);
+}
+
+} // namespace
+
+FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
+                   const std::vector<openvdb::Vec4I>& quads) {
+    constexpr double kNear = 0.05; // voxels
+    FieldFaces faces;
+    faces.vertices.reserve(points.size());
+    for (const openvdb::Vec3s& point : points)
+        faces.vertices.push_back(ontoSurface(field, placeOf(point)));
+    faces.corners.reserve(6 * quads.size());
+    for (const openvdb::Vec4I& quad : quads) {
+        const auto at = [&](int k) { return faces.vertices[quad[k]]; };
+        const auto first = static_cast<uint32_t>(faces.vertices.size());
+        const auto crossing = crossingOf(field, {placeOf(points[quad[0]]), placeOf(points[quad[1]]),
+                                                 placeOf(points[quad[2]]), placeOf(points[quad[3]])});
+        if (crossing && distanceTo(Triangle(at(0), at(1), at(2)), *crossing).distance > kNear &&
+            distanceTo(Triangle(at(0), at(2), at(3)), *crossing).distance > kNear) {
+            for (int k = 0; k < 4; ++k)
+                faces.corners.insert(faces.corners.end(), {quad[k], quad[(k + 1) % 4], first});
+            faces.vertices.push_back(*crossing);
+        } else { // along its first diagonal
+            faces.corners.insert(faces.corners.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
+        }
+    }
+    return faces;
+}
+
+} // namespace touchstone

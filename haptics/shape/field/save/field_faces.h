@@ -1,0 +1,26 @@
+#pragma once
+// The zero of a field as triangles, from OpenVDB's dual contouring. Not for the servo thread.
+
+#include "haptics/shape/field/field_grid.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace touchstone {
+
+struct FieldFaces {
+    std::vector<glm::dvec3> vertices; ///< grid coordinates
+    std::vector<uint32_t> corners;    ///< 3 a triangle, counter-clockwise from outside
+};
+
+/// What volumeToMesh made of the field's nodes, whose grid coordinates are its index space, without
+/// adaptivity. It puts a vertex amid the places where the surface crosses the edges of a cell: off the
+/// surface by up to two thirds of a voxel at the tip of a spike, and beside every crease that a tool leaves.
+/// Here vertices lie on the zero of their cells' polynomials, and a quad that passes its own edge's crossing
+/// at more than a twentieth of a voxel has that as a fifth vertex.
+[[nodiscard]] FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
+                                 const std::vector<openvdb::Vec4I>& quads);
+
+} // namespace touchstone
