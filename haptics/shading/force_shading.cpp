@@ -83,18 +83,29 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
+/// The same of an object that deforms, and the normal of a triangle's patch. Out of line: what rests pays one
+/// branch.
+[[gnu::noinline]] glm::dvec3 patchOrDeformed(const HapticObject& object, uint32_t triangle,
+                                             const glm::dvec3& point, bool patch) {
+    const uint32_t* const source = &object.sourceIndices[3 * static_cast<size_t>(triangle)];
+    const glm::dvec3 a = normalOf(object, source[0]), b = normalOf(object, source[1]),
+                     c = normalOf(object, source[2]);
+    const Triangle corners = triangleOf(object, triangle);
+    const glm::dvec3 weight = barycentric(corners, point);
+    if (patch)
+        return patchNormal({corners.a, corners.b, corners.c}, {a, b, c}, weight);
+    return weight.x * a + weight.y * b + weight.z * c;
+}
+
 /// The interpolated vertex normal at a point of a triangle, or that of its patch; object frame, not of unit
 /// length.
 glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point, bool patch) {
-    const size_t first = 3 * static_cast<size_t>(triangle);
-    const glm::dvec3 a = normalOf(object, object.sourceIndices[first]),
-                     b = normalOf(object, object.sourceIndices[first + 1]),
-                     c = normalOf(object, object.sourceIndices[first + 2]);
-    const Triangle corners = triangleOf(object, triangle);
-    const glm::dvec3 weight = barycentric(corners, point);
-    if (patch) [[unlikely]]
-        return patchNormal({corners.a, corners.b, corners.c}, {a, b, c}, weight);
-    return weight.x * a + weight.y * b + weight.z * c;
+    if (patch || object.instant != nullptr) [[unlikely]]
+        return patchOrDeformed(object, triangle, point, patch);
+    const uint32_t* const source = &object.sourceIndices[3 * static_cast<size_t>(triangle)];
+    const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
+    return weight.x * normalOf(object, source[0]) + weight.y * normalOf(object, source[1]) +
+           weight.z * normalOf(object, source[2]);
 }
 
 /// True where stage 3 came to rest at the place that the first goal predicted, held by that facet alone: a
