@@ -19,7 +19,7 @@ struct SurfaceMesh {
 };
 
 inline constexpr uint64_t kMostDrawnVoxels = uint64_t{1} << 26;
-/// Quadrilaterals: two triangles each.
+/// Quadrilaterals: two triangles each, and up to four in a field's mesh (meshOfField).
 inline constexpr uint64_t kMostSurfaceFaces = uint64_t{1} << 22;
 
 /// The surface where the values are `iso` (highestOutside), closed at the volume's border, by OpenVDB's dual

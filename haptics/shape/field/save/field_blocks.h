@@ -13,7 +13,7 @@
 
 namespace touchstone {
 
-/// Meshes blocks of kBlock^3 cells by OpenVDB's dual contouring (volumeToMesh), each with a margin of a cell,
+/// Meshes blocks of kBlock^3 cells by dual contouring (facesOf), each with a margin of a cell,
 /// and keeps the faces whose edge of the grid belongs to the block: the blocks meet without a gap. One
 /// thread.
 class FieldBlocks {

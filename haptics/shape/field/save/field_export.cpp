@@ -11,6 +11,7 @@
 
 #include <array>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
@@ -63,7 +64,7 @@ SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Sim
         openvdb::initialize();
         openvdb::tools::volumeToMesh(*gridOfField(*field, 1.0), points, triangles, quads, 0.0, 0.0);
     });
-    if (quads.size() > kMostSurfaceFaces)
+    if (quads.size() > kMostSurfaceFaces) // triangles: two each, some four
         throw Error("sculpting", "",
                     "the surface has " + std::to_string(quads.size()) + " faces, of which " +
                         std::to_string(kMostSurfaceFaces) + " fit",

@@ -10,9 +10,9 @@
 
 namespace touchstone {
 
-/// The surface of a field by OpenVDB's dual contouring (volumeToMesh), with normals along the field's
-/// interpolated gradient. Scene frame, m. No triangles where the field is nowhere negative. Throws Error
-/// where it would have more than kMostSurfaceFaces quadrilaterals. `colors`: null where it is not painted.
+/// The surface of a field by dual contouring (facesOf), with normals along the field's interpolated gradient.
+/// Scene frame, m. No triangles where the field is nowhere negative. Throws Error where it would have more
+/// than kMostSurfaceFaces quadrilaterals. `colors`: null where it is not painted.
 [[nodiscard]] SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& grid,
                                       const Similarity& sceneFromObject, const FieldColors* colors = nullptr);
 

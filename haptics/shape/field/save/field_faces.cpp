@@ -2,6 +2,7 @@
 
 #include "haptics/shape/mesh/triangle.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -40,7 +41,7 @@ glm::dvec3 ontoSurface(const FieldGrid& field, const glm::dvec3& vertex) {
 /// Where the surface crosses the edge of the grid that the quad is dual to: the one that its four cells
 /// share.
 std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const std::array<glm::dvec3, 4>& points) {
-    glm::ivec3 low(INT_MAX), high(INT_MIN);
+    glm::ivec3 low(glm::floor(points[0])), high = low;
     for (const glm::dvec3& point : points) {
         const glm::ivec3 cell(glm::floor(point));
         low = glm::min(low, cell);
@@ -49,7 +50,7 @@ std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const std::array<gl
     const glm::ivec3 size = high - low;
     if (size.x + size.y + size.z != 2 || size.x > 1 || size.y > 1 || size.z > 1)
         return std::nullopt; // a point on a face of its cell: floats do not tell whose it is
-    glm::ivec3 along = glm::ivec3(1) - size;
+    const glm::ivec3 along = glm::ivec3(1) - size;
     if (!field.contains(low) || !field.contains(high))
         return std::nullopt;
     const double f = field.node(high), g = field.node(high + along);
@@ -58,28 +59,50 @@ std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const std::array<gl
     return glm::dvec3(high) + f / (f - g) * glm::dvec3(along);
 }
 
+constexpr int kNoCut = -1;
+
+/// The corner, 0 or 1, at which the diagonal begins that leads nearer to the crossing; kNoCut where both pass
+/// it, or where the quad folds over that diagonal.
+int bestCut(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& crossing) {
+    constexpr double kNear = 0.05; // voxels
+    int best = kNoCut;
+    double nearest = kNear;
+    for (int cut = 0; cut < 2; ++cut) {
+        const auto at = [&](int k) { return corners[static_cast<size_t>((cut + k) % 4)]; };
+        const Triangle one(at(0), at(1), at(2)), other(at(0), at(2), at(3));
+        const double distance =
+            std::min(distanceTo(one, crossing).distance, distanceTo(other, crossing).distance);
+        if (distance < nearest && glm::dot(one.normal, other.normal) >= 0.0) {
+            nearest = distance;
+            best = cut;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
                    const std::vector<openvdb::Vec4I>& quads) {
-    constexpr double kNear = 0.05; // voxels
     FieldFaces faces;
     faces.vertices.reserve(points.size());
     for (const openvdb::Vec3s& point : points)
         faces.vertices.push_back(ontoSurface(field, placeOf(point)));
     faces.corners.reserve(6 * quads.size());
     for (const openvdb::Vec4I& quad : quads) {
-        const auto at = [&](int k) { return faces.vertices[quad[k]]; };
-        const auto first = static_cast<uint32_t>(faces.vertices.size());
+        const std::array<glm::dvec3, 4> corners{faces.vertices[quad[0]], faces.vertices[quad[1]],
+                                                faces.vertices[quad[2]], faces.vertices[quad[3]]};
         const auto crossing = crossingOf(field, {placeOf(points[quad[0]]), placeOf(points[quad[1]]),
                                                  placeOf(points[quad[2]]), placeOf(points[quad[3]])});
-        if (crossing && distanceTo(Triangle(at(0), at(1), at(2)), *crossing).distance > kNear &&
-            distanceTo(Triangle(at(0), at(2), at(3)), *crossing).distance > kNear) {
+        const int cut = crossing ? bestCut(corners, *crossing) : 0;
+        if (cut == kNoCut) {
+            const auto first = static_cast<uint32_t>(faces.vertices.size());
             for (int k = 0; k < 4; ++k)
                 faces.corners.insert(faces.corners.end(), {quad[k], quad[(k + 1) % 4], first});
             faces.vertices.push_back(*crossing);
-        } else { // along its first diagonal
-            faces.corners.insert(faces.corners.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
+        } else {
+            const uint32_t a = quad[cut], b = quad[cut + 1], c = quad[cut + 2], d = quad[(cut + 3) % 4];
+            faces.corners.insert(faces.corners.end(), {a, b, c, a, c, d});
         }
     }
     return faces;

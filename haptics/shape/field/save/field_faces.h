@@ -18,8 +18,10 @@ struct FieldFaces {
 /// What volumeToMesh made of the field's nodes, whose grid coordinates are its index space, without
 /// adaptivity. It puts a vertex amid the places where the surface crosses the edges of a cell: off the
 /// surface by up to two thirds of a voxel at the tip of a spike, and beside every crease that a tool leaves.
-/// Here vertices lie on the zero of their cells' polynomials, and a quad that passes its own edge's crossing
-/// at more than a twentieth of a voxel has that as a fifth vertex.
+/// Here vertices lie on the zero of their cells' polynomials, or as near to it as their cells go, and a quad
+/// is cut along the diagonal nearer to the crossing of its own edge, or takes that as a fifth vertex where
+/// both pass it at more than a twentieth of a voxel. A quad with a vertex on a face of its cell is cut along
+/// its first diagonal: floats do not tell its edge.
 [[nodiscard]] FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
                                  const std::vector<openvdb::Vec4I>& quads);
 
