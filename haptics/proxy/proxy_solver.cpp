@@ -36,7 +36,7 @@ constexpr uint32_t kCircling = 10;
 constexpr int kLiftsPerMove = 3;
 /// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
 constexpr int kLeaps = 2;
-/// Slopes of the ramps over kinks between a shape's cells: over a torus of 25 mm voxels of 0.5 mm meet at
+/// Slopes of the ramps over kinks between a shape's cells: on a torus of 25 mm, cells of 0.5 mm meet at
 /// 0.02 rad.
 constexpr double kLowRamp = 1.0 / 16.0, kHighRamp = 0.25;
 
@@ -234,10 +234,16 @@ bool ProxySolver::goStraight(const glm::dvec3& to) noexcept {
 bool ProxySolver::goOver(const glm::dvec3& place, const glm::dvec3& normal) noexcept {
     const glm::dvec3 start = state_.proxy, way = place - start;
     const double length = glm::length(way), fall = std::max(-glm::dot(way, normal), 0.0);
-    for (const double height : {fall, std::max(2.0 * fall, kLowRamp * length), kHighRamp * length}) {
-        if ((height == 0.0 || goStraight(place + height * normal)) && goStraight(place))
+    for (const double height :
+         {fall, std::max(2.0 * fall, kLowRamp * length), std::max(4.0 * fall, kHighRamp * length)}) {
+        if (height > 0.0 && !goStraight(place + height * normal))
+            continue;
+        if (goStraight(place))
             return true;
+        if (height == 0.0)
+            continue;
         placeAt(start);
+        return false; // what stops the way down stops it from higher up, too
     }
     return false;
 }

@@ -145,10 +145,10 @@ double SceneSculptor::removedBy(bool undoes) {
     if (from.empty())
         return 0.0;
     const Made made = from.back();
-    from.pop_back();
-    to.push_back(made);
     Sculptor& sculptor = sculptorOf(made.object);
     (void)(undoes ? sculptor.undo() : sculptor.redo());
+    from.pop_back();
+    to.push_back(made);
     unsettled_.insert(made.object);
     return undoes ? -made.removed : made.removed;
 }
@@ -191,9 +191,10 @@ SculptReport SceneSculptor::apply(const SculptEntry& entry) {
     }
     if (sculptor.previews()) // which end with it, whatever it changes
         unsettled_.insert(object);
-    if (std::exchange(begins_, false)) {
+    if (begins_) {
         sculptor.beginStroke();
         undone_.clear();
+        begins_ = false;
     }
     const DabReport one = entry.kind == SculptEntryKind::Shape ? sculptor.shape(dab) : sculptor.apply(dab);
     const double scale = sceneFromObject(object).scale;
@@ -239,8 +240,8 @@ std::optional<int32_t> SceneSculptor::owesDistances() const {
 }
 
 void SceneSculptor::settle() {
-    for (const size_t object : std::exchange(unsettled_, {}))
-        if (!scene_->objects[object]->empty())
+    for (; !unsettled_.empty(); unsettled_.erase(unsettled_.begin()))
+        if (const size_t object = *unsettled_.begin(); !scene_->objects[object]->empty())
             renew(object);
 }
 

@@ -83,7 +83,7 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
-/// The same of an object that deforms, and the normal of a triangle's patch. Out of line: what rests pays one
+/// `interpolated` of an object that deforms, and of a triangle's patch. Out of line: what rests pays one
 /// branch.
 [[gnu::noinline]] glm::dvec3 patchOrDeformed(const HapticObject& object, uint32_t triangle,
                                              const glm::dvec3& point, bool patch) {

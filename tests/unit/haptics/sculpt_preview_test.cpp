@@ -14,6 +14,7 @@
 #include <map>
 #include <random>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace touchstone::test {
@@ -111,6 +112,31 @@ TEST(SculptPreview, MayBeMadeBetweenTheStepsOfARestoration) {
     EXPECT_EQ(made, kLater.size());
     EXPECT_EQ(first.grid()->hash(), without.grid()->hash());
     EXPECT_EQ(between.grid()->hash(), without.grid()->hash());
+}
+
+/// A restoration that fails between its steps leaves the field as it was, and may be made again.
+TEST(SculptPreview, WhatThrowsWithinARestorationLeavesTheDistancesOwed) {
+    const auto base = gridOf(block, 96);
+    for (const size_t at : {1, 5, 20}) {
+        Sculptor sculptor(base), without(base);
+        sculptor.shape(kFirst);
+        without.apply(kFirst);
+        const uint64_t shaped = sculptor.grid()->hash();
+        size_t calls = 0;
+        EXPECT_THROW(sculptor.restore([&] {
+            if (++calls == at)
+                throw std::runtime_error("no memory");
+        }),
+                     std::runtime_error);
+        EXPECT_EQ(calls, at);
+        EXPECT_TRUE(sculptor.owesDistances());
+        EXPECT_EQ(sculptor.grid()->hash(), shaped);
+        sculptor.restore();
+        EXPECT_FALSE(sculptor.owesDistances());
+        EXPECT_EQ(sculptor.grid()->hash(), without.grid()->hash());
+        EXPECT_TRUE(sculptor.undo());
+        EXPECT_EQ(sculptor.grid().get(), base.get());
+    }
 }
 
 /// A copy of a field that reads the bricks alone that are named as changed.

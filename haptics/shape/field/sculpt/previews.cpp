@@ -17,12 +17,15 @@ DabReport Sculptor::preview(const Dab& dab) {
         fillShapeWindow(previewWindow_, *now, dab.centre, radius, margin(), shapeMargin(dab.tool));
     (void)applyTool(previewWindow_, *base_, dab, zone);
     const Bricks made = changedBricks(previewWindow_, *now, changedNodes(previewWindow_));
-    for (const auto& [number, brick] : made) {
-        previewed_[number] = brick;
-        changed_.insert(number);
+    if (!made.empty()) {
+        Bricks all = previewed_;
+        for (const auto& [number, brick] : made) {
+            all[number] = brick;
+            changed_.insert(number);
+        }
+        preview_ = madeWith(all);
+        previewed_ = std::move(all);
     }
-    if (!made.empty())
-        preview_ = madeWith(previewed_);
     DabReport report;
     report.bricks = made.size();
     return report;

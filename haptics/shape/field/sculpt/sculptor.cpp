@@ -207,7 +207,7 @@ DabReport Sculptor::restore(const std::function<void()>& meanwhile) {
         dropPreviews();
         return {};
     }
-    const Shaped shaped = *shaped_; // still owed where `meanwhile` throws
+    const Shaped shaped = *shaped_; // still owed where something throws
     const std::shared_ptr<const FieldGrid> now = made();
     const SculptZone zone = fillWindow(window_, *shaped.before, *now, shaped.centre, shaped.radius, margin());
     // Nodes that the shape changed and the restoration puts back are committed, too: else bricks that share
@@ -215,10 +215,10 @@ DabReport Sculptor::restore(const std::function<void()>& meanwhile) {
     std::vector<NodeBox> changed = changedNodes(window_);
     const std::vector<NodeBox> restored =
         restorer_.run(window_, zone, {base_->inside(), base_->outside()}, shaped.exact, meanwhile);
-    shaped_.reset();
-    dropPreviews();
     changed.insert(changed.end(), restored.begin(), restored.end());
     DabReport report = committed(zone, changed);
+    shaped_.reset();
+    dropPreviews();
     report.removed = 0.0; // `shape` has told it
     return report;
 }
