@@ -106,6 +106,10 @@ class ProxySolver {
     [[nodiscard]] double radius() const noexcept { return radius_; }
 
   private:
+    /// A sweep ends at this gap, below the resting gap: a surface that the proxy rests on at kContactGap and
+    /// slides along is then not hit again at once by the rounding of its gradient.
+    static constexpr double kStrikeGap = 0.5 * kContactGap;
+
     void adoptReference(int reference) noexcept;
     void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
