@@ -290,9 +290,11 @@ void FieldGrid::Brick::copy(const glm::ivec3& from, const glm::ivec3& end, float
 
 glm::ivec3 FieldGrid::cellAt(const glm::dvec3& grid) const noexcept {
     glm::ivec3 cell;
-    for (int axis = 0; axis < 3; ++axis) // fmax and fmin take a number for NaN
-        cell[axis] = static_cast<int>(
-            std::fmin(std::fmax(std::floor(grid[axis]), 0.0), static_cast<double>(layout_.cells[axis] - 1)));
+    for (int axis = 0; axis < 3;
+         ++axis) { // comparisons that NaN fails: cell 0 (fmax is a call of the library)
+        const double last = layout_.cells[axis] - 1, place = grid[axis] > 0.0 ? grid[axis] : 0.0;
+        cell[axis] = static_cast<int>(place < last ? place : last);
+    }
     return cell;
 }
 
@@ -316,10 +318,12 @@ FieldCell FieldGrid::cell(const glm::ivec3& at) const noexcept {
                 far[axis] = 0;
                 step[axis] = pitch[axis];
             }
-        for (uint32_t k = 0; k < 8; ++k) {
-            const bool x = (k & 1) != 0, y = (k & 2) != 0, z = (k & 4) != 0;
-            const Brick& has = brick[(x ? step.x : 0) + (y ? step.y : 0) + (z ? step.z : 0)];
-            node[k] = static_cast<double>(has.value({x ? far.x : in.x, y ? far.y : in.y, z ? far.z : in.z}));
+        for (uint32_t row = 0; row < 4; ++row) {
+            const bool y = (row & 1) != 0, z = (row & 2) != 0;
+            const Brick* const has = brick + (y ? step.y : 0) + (z ? step.z : 0);
+            const uint32_t v = y ? far.y : in.y, w = z ? far.z : in.z;
+            node[2 * row] = static_cast<double>(has->value({in.x, v, w}));
+            node[2 * row + 1] = static_cast<double>(has[step.x].value({far.x, v, w}));
         }
         return FieldCell::between(node);
     }

@@ -187,8 +187,9 @@ double FieldShape::sweepInside(const glm::dvec3& centre, const glm::dvec3& motio
                 --cell[axis];
         const float flat = grid_->flatBrick(cell);
         const bool isFlat = flat == flat;
-        const int side = isFlat ? FieldGrid::kBrick : 1;
-        double exit = leaves(begin, d, side * (cell / side), side);
+        double exit =
+            isFlat ? leaves(begin, d, FieldGrid::kBrick * (cell / FieldGrid::kBrick), FieldGrid::kBrick)
+                   : leaves(begin, d, cell, 1);
         exit = std::min(std::max(exit, std::nextafter(time, INFINITY)), to);
         if (!isFlat) {
             const auto along = grid_->cell(cell).along(place - glm::dvec3(cell), d);
