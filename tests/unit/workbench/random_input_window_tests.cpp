@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -73,7 +74,9 @@ class RandomInput : public WindowTest {
             return static_cast<int>(rect[from].get<double>() +
                                     rect[size].get<double>() * 0.01 * (5.0 + below(90)));
         };
-        return {corner_.x + within("x", "width"), corner_.y + within("y", "height")};
+        // What is scrolled away lies beyond the window.
+        return {std::max(corner_.x + within("x", "width"), 0),
+                std::max(corner_.y + within("y", "height"), 0)};
     }
 
     /// One thing that a hand does, as words for xdotool.
