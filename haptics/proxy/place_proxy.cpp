@@ -66,7 +66,8 @@ void letGoOfEmptied(const HapticScene& scene, ObjectMotions motions, DeviceState
     }
     if (gone(state.grasp.object))
         state.grasp = {};
-    if (gone(state.shadedObject)) {
+    // Else it may name an object of the scene before.
+    if (state.shaded && gone(state.shadedObject)) {
         state.shaded = false;
         state.shadedObject = -1;
     }

@@ -112,6 +112,18 @@ TEST(SceneParts, AProxyBesideAHiddenObjectMovesToTheFrameOfOneThatIsLeft) {
     EXPECT_LT(glm::distance(proxy(), before), 1e-15);
 }
 
+/// Found by random input: a scene was opened after one with more objects, and offered again (a material had
+/// changed) before it was touched. The servo looked for the object that the hand had last felt shaded.
+TEST(SceneParts, AHandThatTouchedALargerSceneLooksForNothingOfIt) {
+    PartBench bench(sceneOf(assets::box({0.1, 0.1, 0.1})), {}, plainSettings());
+    DeviceState& state = bench.state[0];
+    state.shaded = true;
+    state.shadedObject = 1'000'000;
+    letGo(state); // as at another scene
+    letGoOfEmptied(*bench.scene, bench.scene->restMotions, state);
+    EXPECT_FALSE(state.shaded);
+}
+
 /// The plane leaves this strip as many vertices and triangles as it had. Failed: it was felt whole.
 TEST(SceneParts, CutsAStripThatKeepsItsNumberOfTriangles) {
     assets::Shape strip;
