@@ -35,10 +35,10 @@ bool ProxySolver::goOver(const glm::dvec3& place, const glm::dvec3& normal) noex
             continue;
         if (goStraight(place))
             return true;
-        if (height == 0.0)
-            continue;
-        placeAt(start);
-        return false; // what stops the way down stops it from higher up, too
+        if (height > 0.0) { // what stops the way down stops it from higher up, too
+            placeAt(start);
+            return false;
+        }
     }
     return false;
 }

@@ -83,18 +83,22 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
     return glm::dot(turn, turn) > kLargestTurn * kLargestTurn ? glm::dvec3(0.0) : turn;
 }
 
-/// `interpolated` of an object that deforms, and of a triangle's patch. Out of line: what rests pays one
-/// branch.
-[[gnu::noinline]] glm::dvec3 patchOrDeformed(const HapticObject& object, uint32_t triangle,
-                                             const glm::dvec3& point, bool patch) {
+[[gnu::always_inline]] inline glm::dvec3 normalAt(const HapticObject& object, uint32_t triangle,
+                                                  const glm::dvec3& point, bool patch) {
     const uint32_t* const source = &object.sourceIndices[3 * static_cast<size_t>(triangle)];
+    const Triangle corners = triangleOf(object, triangle);
+    const glm::dvec3 weight = barycentric(corners, point); // before the normals: fewer values at once
     const glm::dvec3 a = normalOf(object, source[0]), b = normalOf(object, source[1]),
                      c = normalOf(object, source[2]);
-    const Triangle corners = triangleOf(object, triangle);
-    const glm::dvec3 weight = barycentric(corners, point);
     if (patch)
         return patchNormal({corners.a, corners.b, corners.c}, {a, b, c}, weight);
     return weight.x * a + weight.y * b + weight.z * c;
+}
+
+/// Out of line: what rests, and has no patch, pays one branch.
+[[gnu::noinline]] glm::dvec3 patchOrDeformed(const HapticObject& object, uint32_t triangle,
+                                             const glm::dvec3& point, bool patch) {
+    return normalAt(object, triangle, point, patch);
 }
 
 /// The interpolated vertex normal at a point of a triangle, or that of its patch; object frame, not of unit
@@ -102,10 +106,7 @@ glm::dvec3 smallTurn(const glm::dvec3& turn) {
 glm::dvec3 interpolated(const HapticObject& object, uint32_t triangle, const glm::dvec3& point, bool patch) {
     if (patch || object.instant != nullptr) [[unlikely]]
         return patchOrDeformed(object, triangle, point, patch);
-    const uint32_t* const source = &object.sourceIndices[3 * static_cast<size_t>(triangle)];
-    const glm::dvec3 weight = barycentric(triangleOf(object, triangle), point);
-    return weight.x * normalOf(object, source[0]) + weight.y * normalOf(object, source[1]) +
-           weight.z * normalOf(object, source[2]);
+    return normalAt(object, triangle, point, false);
 }
 
 /// True where stage 3 came to rest at the place that the first goal predicted, held by that facet alone: a

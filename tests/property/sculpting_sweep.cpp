@@ -98,26 +98,6 @@ double meshFromField(const FieldShape& field, const SurfaceMesh& mesh) {
     return worst;
 }
 
-/// Crossings of the surface with the edges of the grid, from the mesh, in voxels.
-double fieldFromMesh(const FieldGrid& grid, const SurfaceMesh& mesh) {
-    const MeshDistance distance(mesh, kVoxel);
-    double worst = 0.0;
-    eachNode(grid, [&](const glm::ivec3& node) {
-        const double f = grid.node(node);
-        for (int axis = 0; axis < 3 && std::abs(f) < 2.0 * kVoxel; ++axis) {
-            glm::ivec3 next = node;
-            ++next[axis];
-            const double g = grid.node(next);
-            if ((f < 0.0) == (g < 0.0))
-                continue;
-            glm::dvec3 place(node);
-            place[axis] += f / (f - g);
-            worst = std::max(worst, distance(grid.layout().origin + kVoxel * place) / kVoxel);
-        }
-    });
-    return worst;
-}
-
 struct Slopes {
     size_t count = 0, off = 0; ///< nodes; with a gradient off by more than 5 %
     double mean = 0.0, worst = 0.0, distance = 0.0;
@@ -176,7 +156,7 @@ TEST(SculptingSweep, TwoHundredStrokesLeaveADistanceAndAreTakenBackToTheBytes) {
 
     const SurfaceMesh mesh = meshOfField(sculpted, Similarity{});
     const FieldShape field(sculpted), meshed = meshedAgain(sculpted, mesh);
-    const double there = meshFromField(field, mesh), back = fieldFromMesh(*sculpted, mesh);
+    const double there = meshFromField(field, mesh), back = crossingsOf(*sculpted, mesh).worst;
     std::printf("%zu strokes of %d dabs, %zu triangles: mesh from field %.3f voxels, field from mesh %.3f\n",
                 hashes.size() - 1, kDabs, mesh.corners.size() / 3, there, back);
     EXPECT_LT(there, 0.4);

@@ -1,7 +1,8 @@
 #pragma once
-// The distance of a place from a mesh, of the triangles around it alone.
+// How far places, and the surface of a field, are from a mesh.
 
 #include "engine/volume/volume_mesh.h"
+#include "haptics/shape/field/field_grid.h"
 
 #include <glm/glm.hpp>
 
@@ -71,5 +72,34 @@ class MeshDistance {
     double reach_;
     std::map<Box, std::vector<size_t>> boxes_;
 };
+
+/// Places where a field's surface crosses the edges of its grid.
+struct Crossings {
+    size_t count = 0;
+    double worst = 0.0; ///< voxels from the mesh
+};
+inline Crossings crossingsOf(const FieldGrid& grid, const SurfaceMesh& mesh) {
+    const FieldLayout& layout = grid.layout();
+    const MeshDistance distance(mesh, layout.voxel);
+    Crossings crossings;
+    for (int z = 0; z < layout.cells.z; ++z)
+        for (int y = 0; y < layout.cells.y; ++y)
+            for (int x = 0; x < layout.cells.x; ++x) {
+                const double f = grid.node({x, y, z});
+                for (int axis = 0; axis < 3; ++axis) {
+                    glm::ivec3 next(x, y, z);
+                    ++next[axis];
+                    const double g = grid.node(next);
+                    if ((f < 0.0) == (g < 0.0))
+                        continue;
+                    glm::dvec3 place(x, y, z);
+                    place[axis] += f / (f - g);
+                    ++crossings.count;
+                    crossings.worst = std::max(crossings.worst,
+                                               distance(layout.origin + layout.voxel * place) / layout.voxel);
+                }
+            }
+    return crossings;
+}
 
 } // namespace touchstone::test

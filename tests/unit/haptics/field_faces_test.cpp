@@ -57,32 +57,6 @@ void addFaces(const Positions& positions, const std::vector<uint32_t>& corners, 
     }
 }
 
-struct Crossings {
-    size_t count = 0;
-    double worst = 0.0; ///< voxels from the mesh
-};
-Crossings crossingsOf(const FieldGrid& grid, const SurfaceMesh& mesh) {
-    const MeshDistance distance(mesh, kFineVoxel);
-    Crossings crossings;
-    const glm::ivec3 n = grid.layout().cells;
-    for (int z = 0; z < n.z; ++z)
-        for (int y = 0; y < n.y; ++y)
-            for (int x = 0; x < n.x; ++x)
-                for (int axis = 0; axis < 3; ++axis) {
-                    glm::ivec3 next(x, y, z);
-                    ++next[axis];
-                    const double f = grid.node({x, y, z}), g = grid.node(next);
-                    if ((f < 0.0) == (g < 0.0))
-                        continue;
-                    glm::dvec3 place(x, y, z);
-                    place[axis] += f / (f - g);
-                    ++crossings.count;
-                    crossings.worst = std::max(
-                        crossings.worst, distance(grid.layout().origin + kFineVoxel * place) / kFineVoxel);
-                }
-    return crossings;
-}
-
 TEST(FieldFaces, LieOnTheSurfaceAndItOnThem) {
     for (const auto& [body, seed] : {std::pair(&ball, 3u), std::pair(&block, 4u), std::pair(&torus, 5u)}) {
         const auto grid = creased(*body, seed);

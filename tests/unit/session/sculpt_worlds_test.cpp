@@ -25,7 +25,14 @@ namespace touchstone::test {
 namespace {
 
 constexpr double kSide = 0.04, kVoxel = 0.001; // m, of the clay
-const glm::dvec3 kClay(-0.3, 0.0, 0.0);        // its middle, beside everything else
+/// Of the servo with each tool. Under the thread sanitizer, beside other work, 4000 gave 18 to 20 dabs in
+/// all.
+#ifdef __SANITIZE_THREAD__
+constexpr uint64_t kTicks = 8000;
+#else
+constexpr uint64_t kTicks = 4000;
+#endif
+const glm::dvec3 kClay(-0.3, 0.0, 0.0); // its middle, beside everything else
 
 /// The scene and a cube of clay, in its frame: a field.
 TouchedScene withClay(const Scene& scene, const std::string& name) {
@@ -143,11 +150,11 @@ TEST_P(SculptWorlds, GoOnWhileAHandSculpts) {
     const SoftStates* const soft = session_.servo().soft();
     const std::vector<double> before = heights();
     for (const SculptTool tool : {SculptTool::Carve, SculptTool::Add, SculptTool::Smooth})
-        sculpt(scene, tool, 4000);
+        sculpt(scene, tool, kTicks);
     endSculpting(session_);
     const SculptFigures figures = session_.sculptor().figures();
     EXPECT_TRUE(figures.problem.empty()) << figures.problem;
-    EXPECT_GT(figures.dabs, 5u);
+    EXPECT_GT(figures.dabs, 20u);
     EXPECT_GT(recording_.edited, 10u) << "the servo took the scenes up while it ran";
     EXPECT_GT(recording_.contacts, 300u);
     EXPECT_EQ(session_.servo().soft(), soft) << "the soft bodies began anew";

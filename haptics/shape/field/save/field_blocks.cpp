@@ -49,14 +49,9 @@ FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const g
     std::vector<openvdb::Vec4I> quads;
     tbb::task_arena(1).execute(
         [&] { openvdb::tools::volumeToMesh(*nodes, points, triangles, quads, 0.0, 0.0); });
-    const auto placeOf = [&](uint32_t point) {
-        return glm::dvec3(glm::vec3(points[point].x(), points[point].y(), points[point].z()));
-    };
-    // Of the four cells about an edge of the grid the greatest one has the edge at its corner.
+    // A quad belongs to the block that has its edge of the grid.
     std::erase_if(quads, [&](const openvdb::Vec4I& quad) {
-        glm::ivec3 owner(-1);
-        for (int corner = 0; corner < 4; ++corner)
-            owner = glm::max(owner, glm::ivec3(glm::floor(placeOf(quad[corner]))));
+        const glm::ivec3 owner = cellsOf(points, quad).high;
         return glm::any(glm::lessThan(owner, kBlock * block)) ||
                glm::any(glm::greaterThanEqual(owner, kBlock * (block + 1)));
     });

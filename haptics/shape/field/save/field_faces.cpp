@@ -40,13 +40,8 @@ glm::dvec3 ontoSurface(const FieldGrid& field, const glm::dvec3& vertex) {
 
 /// Where the surface crosses the edge of the grid that the quad is dual to: the one that its four cells
 /// share.
-std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const std::array<glm::dvec3, 4>& points) {
-    glm::ivec3 low(glm::floor(points[0])), high = low;
-    for (const glm::dvec3& point : points) {
-        const glm::ivec3 cell(glm::floor(point));
-        low = glm::min(low, cell);
-        high = glm::max(high, cell);
-    }
+std::optional<glm::dvec3> crossingOf(const FieldGrid& field, const QuadCells& cells) {
+    const auto& [low, high] = cells;
     const glm::ivec3 size = high - low;
     if (size.x + size.y + size.z != 2 || size.x > 1 || size.y > 1 || size.z > 1)
         return std::nullopt; // a point on a face of its cell: floats do not tell whose it is
@@ -82,6 +77,16 @@ int bestCut(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& crossing
 
 } // namespace
 
+QuadCells cellsOf(const std::vector<openvdb::Vec3s>& points, const openvdb::Vec4I& quad) {
+    QuadCells cells{.low = glm::ivec3(INT32_MAX), .high = glm::ivec3(INT32_MIN)};
+    for (int corner = 0; corner < 4; ++corner) {
+        const glm::ivec3 cell(glm::floor(placeOf(points[quad[corner]])));
+        cells.low = glm::min(cells.low, cell);
+        cells.high = glm::max(cells.high, cell);
+    }
+    return cells;
+}
+
 FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
                    const std::vector<openvdb::Vec4I>& quads) {
     FieldFaces faces;
@@ -92,8 +97,7 @@ FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& po
     for (const openvdb::Vec4I& quad : quads) {
         const std::array<glm::dvec3, 4> corners{faces.vertices[quad[0]], faces.vertices[quad[1]],
                                                 faces.vertices[quad[2]], faces.vertices[quad[3]]};
-        const auto crossing = crossingOf(field, {placeOf(points[quad[0]]), placeOf(points[quad[1]]),
-                                                 placeOf(points[quad[2]]), placeOf(points[quad[3]])});
+        const auto crossing = crossingOf(field, cellsOf(points, quad));
         const int cut = crossing ? bestCut(corners, *crossing) : 0;
         if (cut == kNoCut) {
             const auto first = static_cast<uint32_t>(faces.vertices.size());

@@ -10,6 +10,13 @@
 
 namespace touchstone {
 
+/// The least and the greatest of the four cells about the edge of the grid that a quad of volumeToMesh is
+/// dual to. The edge begins at the low corner of the greatest one.
+struct QuadCells {
+    glm::ivec3 low, high;
+};
+[[nodiscard]] QuadCells cellsOf(const std::vector<openvdb::Vec3s>& points, const openvdb::Vec4I& quad);
+
 struct FieldFaces {
     std::vector<glm::dvec3> vertices; ///< grid coordinates
     std::vector<uint32_t> corners;    ///< 3 a triangle, counter-clockwise from outside
