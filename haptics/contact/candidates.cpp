@@ -9,9 +9,9 @@ namespace touchstone {
 
 CandidateCache::CandidateCache()
     : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity),
-      pool_(kCapacity + kMaxKept), free_(pool_.size()), freeCount_(pool_.size()) {
-    for (size_t i = 0; i < free_.size(); ++i)
-        free_[i] = static_cast<uint32_t>(free_.size() - 1 - i);
+      pool_(kCapacity + kMaxKept), free_(pool_.size() + 1), freeCount_(pool_.size()) {
+    for (size_t i = 0; i < pool_.size(); ++i)
+        free_[i] = static_cast<uint32_t>(pool_.size() - 1 - i);
 }
 
 void CandidateCache::prepare(Candidate& item) noexcept {
@@ -21,34 +21,42 @@ void CandidateCache::prepare(Candidate& item) noexcept {
     made.at = glm::dvec3(NAN);
 }
 
+// Which triangles a ball has prepared, and which of those the next one finds again, follows no pattern that a
+// processor could predict: what counts is written in any case, beyond the end where it does not count.
+
 /// Sets aside what this ball has prepared; the pool has room for that and for a full ball.
 void CandidateCache::keepPrepared() noexcept {
     keptCount_ = 0;
     for (size_t i = 0; i < count_; ++i) {
         const Candidate& item = items_[i];
-        if (item.prepared == Candidate::kUnprepared)
-            continue;
-        if (keptCount_ == kMaxKept) {
+        const bool known = item.prepared != Candidate::kUnprepared;
+        if (keptCount_ == kMaxKept) [[unlikely]] {
             release(item.prepared);
             continue;
         }
-        keptAt_[keptSlot(item.object, item.index)] = static_cast<uint16_t>(keptCount_);
-        kept_[keptCount_++] = {item.object, item.index, item.prepared};
+        const size_t slot = known ? keptSlot(item.object, item.index) : keptAt_.size() - 1;
+        keptAt_[slot] = static_cast<uint16_t>(keptCount_);
+        kept_[keptCount_] = {item.object, item.index, item.prepared};
+        keptCount_ += known ? 1 : 0;
     }
 }
 
 void CandidateCache::releaseKept() noexcept {
-    for (size_t k = 0; k < keptCount_; ++k)
-        release(kept_[k].prepared);
+    for (size_t k = 0; k < keptCount_; ++k) {
+        free_[freeCount_] = kept_[k].prepared;
+        freeCount_ += kept_[k].prepared != Candidate::kUnprepared ? 1 : 0;
+    }
     keptCount_ = 0;
 }
 
 /// What the ball before has prepared of a triangle; kUnprepared: nothing.
 uint32_t CandidateCache::takeKept(int object, uint32_t index) noexcept {
     const size_t k = keptAt_[keptSlot(object, index)];
-    if (k >= keptCount_ || kept_[k].index != index || kept_[k].object != object)
-        return Candidate::kUnprepared;
-    return std::exchange(kept_[k].prepared, Candidate::kUnprepared);
+    Kept& kept = kept_[k];
+    const uint32_t known = kept.prepared;
+    const bool same = (k < keptCount_) & (kept.index == index) & (kept.object == object);
+    kept.prepared = same ? Candidate::kUnprepared : known;
+    return same ? known : Candidate::kUnprepared;
 }
 
 bool CandidateCache::gatherObject(const HapticObject& object, int index,
@@ -61,8 +69,13 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
     // The search works in float on vertices of magnitude one: widen the ball by more than their rounding.
     const double rounding = 4e-7 * (1.0 + glm::length(local));
     const std::span<TriangleTree::Near> found(found_.data(), kCapacity - count_);
-    const size_t near =
-        treeOf(object).collect(glm::vec3(local), static_cast<float>(localRadius + rounding), found);
+    const glm::vec3 about(local);
+    const auto within = static_cast<float>(localRadius + rounding);
+    const bool looksAhead = !foreign && object.instant == nullptr && ahead_.radius > 0.0f;
+    if (looksAhead)
+        aheadOf_ = &object.tree;
+    const size_t near = looksAhead ? object.tree.collect(about, within, found, ahead_)
+                                   : treeOf(object).collect(about, within, found);
     if (near == found.size())
         return false;
     // The float gradient of a box is good to 1e-6 of the ball.
@@ -76,6 +89,8 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
         item.index = n.triangle;
         item.measured = 0;
         item.prepared = keptCount_ > 0 ? takeKept(index, n.triangle) : Candidate::kUnprepared;
+        retaken_[retakenCount_] = static_cast<uint16_t>(count_);
+        retakenCount_ += item.prepared != Candidate::kUnprepared ? 1 : 0;
         const auto distance = static_cast<double>(n.distance);
         setBound(count_, local, distance - doubt, glm::dvec3(n.away) * (1.0 / std::max(distance, 1e-30)));
         ++count_;
@@ -110,9 +125,7 @@ void CandidateCache::turnIntoReference(size_t first, const Similarity& reference
 /// Bounds of evaluations in place of those of boxes, which are farther from the surface.
 void CandidateCache::takeKeptBounds() noexcept {
     const double far = 4.0 * radius_ * radius_;
-    for (size_t i = 0; i < count_; ++i) {
-        if (items_[i].prepared == Candidate::kUnprepared)
-            continue;
+    for (const size_t i : std::span(retaken_).first(retakenCount_)) {
         Prepared& known = pool_[items_[i].prepared];
         const glm::dvec3 way = known.at - centre_;
         if (glm::dot(way, way) <= far)
@@ -151,6 +164,8 @@ bool CandidateCache::gatherAll(std::span<const std::shared_ptr<const HapticObjec
     } else {
         invalidate();
     }
+    ahead_.count = 0;
+    retakenCount_ = 0;
     oneSided_ = false;
     centre_ = centre;
     radius_ = radius;

@@ -98,6 +98,18 @@ class CandidateCache {
                 std::span<const double> radii, int reference, const glm::dvec3& centre, double radius,
                 Frame frame = Frame::Another) noexcept;
 
+    /// Where the ball after the one that is gathered next is expected, in that one's frame; radius 0:
+    /// nowhere. The gather asks for the memory that the expected ball will read of the reference object, and
+    /// fetchOn, once a tick, goes on: it comes while the ticks between compute.
+    void expect(const glm::dvec3& centre, double radius) noexcept {
+        ahead_.centre = glm::vec3(centre);
+        ahead_.radius = static_cast<float>(radius);
+    }
+    void fetchOn() noexcept {
+        if (ahead_.count > 0)
+            aheadOf_->fetchOn(ahead_);
+    }
+
     /// Objects that a gather leaves out from now on: at most kMaxIgnored.
     static constexpr size_t kMaxIgnored = 8;
     void ignore(std::span<const int> objects) noexcept {
@@ -108,6 +120,7 @@ class CandidateCache {
     void invalidate() noexcept {
         for (size_t i = 0; i < count_; ++i)
             release(items_[i].prepared);
+        ahead_.count = 0;
         clear();
     }
 
@@ -249,6 +262,8 @@ class CandidateCache {
     std::vector<Block> bounds_;
     std::vector<Approach> approaches_;
     std::vector<TriangleTree::Near> found_; ///< of one object
+    TriangleTree::Ahead ahead_;
+    const TriangleTree* aheadOf_ = nullptr; ///< where anything waits in it
     std::vector<Prepared> pool_;
     std::vector<uint32_t> free_; ///< of the pool, a stack: those used last come first
     size_t freeCount_ = 0;
@@ -259,9 +274,11 @@ class CandidateCache {
         int object = -1;
         uint32_t index = 0, prepared = Candidate::kUnprepared;
     };
-    std::array<Kept, kMaxKept> kept_{};
-    std::array<uint16_t, size_t{1} << kKeptBits> keptAt_{};
+    std::array<Kept, kMaxKept + 1> kept_{};                       ///< and one that counts for nothing
+    std::array<uint16_t, (size_t{1} << kKeptBits) + 1> keptAt_{}; ///< and a spare one
     size_t keptCount_ = 0;
+    std::array<uint16_t, kMaxKept + 1> retaken_{}; ///< items of this ball that were kept
+    size_t retakenCount_ = 0;
     std::array<int, kMaxIgnored> ignored_{};
     NearShapes shapes_;
     size_t ignoredCount_ = 0;

@@ -40,6 +40,7 @@ ProxySolver::ProxySolver(const HapticScene& scene, ObjectMotions motions, const 
     rest_.flags = 0;
     rest_.activeSet = SubGoal{};
     state_.candidates.moved(); // another contact model may have moved the proxy
+    state_.candidates.fetchOn();
     adoptReference(state_.reference);
 }
 

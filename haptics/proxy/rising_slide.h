@@ -22,7 +22,7 @@ struct StoppedSlide {
     std::span<const ConstraintPlane> planes; ///< at the start, relative to it
     glm::dvec3 move{0.0};                    ///< to the place nearest to the goal that the planes allow
     double share = 0.0;                      ///< of `move`, up to the hit
-    double covered = 0.0;                    ///< the candidates cover places nearer to the start than this
+    double covered = 0.0;                    ///< how far the candidates cover `move`'s way from the start
     double radius = 0.0;                     ///< of the proxy
     double strikeGap = 0.0;                  ///< gap at which a sweep ends
     int lifts = 0;                           ///< at most, up to kMostLifts

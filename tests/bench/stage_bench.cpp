@@ -252,6 +252,7 @@ void addContact() {
         const std::vector<Touched> places = touches(hand);
         const Similarity frame = hand.workspaceFromReference();
         size_t at = 0;
+        hand.state.candidates.expect(glm::dvec3(0.0), 0.0); // these places follow no way
         loop(state, [&] {
             const Touched& t = places[at = (at + 1) % places.size()];
             benchmark::DoNotOptimize(hand.state.candidates.gather(

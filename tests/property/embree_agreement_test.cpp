@@ -49,6 +49,42 @@ TEST(Embree, AGatheredBallHoldsEveryTriangleThatMeetsIt) {
     }
 }
 
+/// Lines of memory that a walk asks for beyond its ball, until nothing waits.
+uint32_t linesAskedFor(const HapticObject& object, const glm::vec3& centre, float radius,
+                       const glm::vec3& next, float nextRadius) {
+    std::vector<TriangleTree::Near> found(object.triangleCount() + 32);
+    TriangleTree::Ahead ahead{.centre = next, .radius = nextRadius};
+    EXPECT_LT(object.tree.collect(centre, radius, found, ahead), found.size());
+    for (int tick = 0; tick < 64 && ahead.count > 0; ++tick)
+        object.tree.fetchOn(ahead);
+    EXPECT_EQ(ahead.count, 0u);
+    return TriangleTree::kMostLines - ahead.left;
+}
+
+TEST(Embree, AWalkAsksForWhatTheNextBallReadsBeyondItsOwn) {
+    const glm::vec3 far(20.0f, 0.0f, 0.0f);
+    {
+        // All of a small object, once; a node ends with half a line.
+        const auto scene = compileHapticScene(sceneOf(assets::torus(0.06, 0.025, 10, 8)), Similarity{});
+        const HapticObject& object = *scene->objects[0];
+        const uint64_t bytes = object.tree.memoryBytes();
+        const uint32_t all = linesAskedFor(object, far, 0.1f, glm::vec3(0.0f), 10.0f);
+        EXPECT_GE(all + 4, bytes / 64); // the root is read at once
+        EXPECT_LE(all, bytes / 64 * 3 / 2);
+        EXPECT_EQ(linesAskedFor(object, far, 0.1f, far, 10.0f), 0u);
+        EXPECT_EQ(linesAskedFor(object, glm::vec3(0.0f), 10.0f, glm::vec3(0.0f), 10.0f), 0u);
+    }
+    const auto scene = compileHapticScene(sceneOf(assets::torus(0.06, 0.025, 180, 90)), Similarity{});
+    const HapticObject& object = *scene->objects[0];
+    EXPECT_EQ(linesAskedFor(object, far, 0.1f, glm::vec3(0.0f), 10.0f), TriangleTree::kMostLines);
+    const glm::vec3 here = object.vertices[100], next = object.vertices[110];
+    const uint32_t beside = linesAskedFor(object, here, 0.005f, next, 0.01f);
+    EXPECT_GT(beside, 3u);
+    EXPECT_LT(beside, TriangleTree::kMostLines / 2);
+    // Of what its own ball reads it asks for nothing.
+    EXPECT_LT(linesAskedFor(object, here, 0.02f, next, 0.01f), beside);
+}
+
 TEST(Embree, TheInsideTestAgreesWithTheClosedForm) {
     const auto scene = compileHapticScene(sceneOf(assets::torus(0.06, 0.025, 72, 45)), Similarity{});
     const HapticObject& object = *scene->objects[0];

@@ -139,6 +139,73 @@ TEST(Sweep, NoBoundThatIsKeptFromBallToBallExceedsTheDistance) {
     EXPECT_GT(culled, 1000u);
 }
 
+// What a gather asks for ahead is memory alone: the balls that follow hold the same triangles, with the same
+// distances. Some balls prepare more than a cache keeps.
+TEST(Sweep, ABallIsTheSameWhateverIsExpectedNext) {
+    size_t most = 0;
+    for (const World& world : worlds()) {
+        SCOPED_TRACE(world.name);
+        Places places(*world.scene);
+        CandidateCache cache, plain;
+        glm::dvec3 centre(0.0), way(0.0);
+        for (int trial = 0; trial < 200; ++trial) {
+            const double radius = std::pow(10.0, places.between(-2.0, -0.5));
+            if (trial % 10 == 0) {
+                centre = places.next(0.02);
+                way = 0.02 * glm::normalize(places.next(0.02) - centre);
+            }
+            centre += way * places.between(0.0, 1.0);
+            cache.expect(centre + way * places.between(-1.0, 4.0),
+                         trial % 7 == 0 ? 0.0 : radius * std::pow(10.0, places.between(-1.0, 3.0)));
+            const auto gather = [&](CandidateCache& into) {
+                return into.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres,
+                                   0, centre, radius, CandidateCache::Frame::Same);
+            };
+            ASSERT_EQ(gather(cache), gather(plain));
+            ASSERT_EQ(cache.count(), plain.count());
+            most = std::max(most, cache.count());
+            const glm::dvec3 p = centre + 0.5 * radius * glm::normalize(places.next(0.1) - centre);
+            for (size_t i = 0; i < cache.count(); ++i) {
+                ASSERT_EQ(cache.item(i).index, plain.item(i).index);
+                if ((i + static_cast<size_t>(trial)) % 3 == 0)
+                    continue; // stays unprepared
+                const TriangleDistance a = cache.measure(i, p), b = plain.measure(i, p);
+                ASSERT_EQ(a.distance, b.distance);
+                ASSERT_EQ(a.gradient, b.gradient);
+                const Candidate& item = cache.item(i);
+                if (item.object == 0) {
+                    const Triangle fresh = triangleOf(*world.scene->objects[0], item.index);
+                    ASSERT_EQ(cache.triangle(i).a, fresh.a);
+                    ASSERT_EQ(cache.triangle(i).b, fresh.b);
+                    ASSERT_EQ(cache.triangle(i).c, fresh.c);
+                }
+            }
+            for (int tick = 0; tick < trial % 4; ++tick)
+                cache.fetchOn();
+            if (trial % 23 == 0) {
+                cache.invalidate();
+                plain.invalidate();
+                cache.fetchOn();
+            }
+        }
+    }
+    EXPECT_GT(most, 600u);
+}
+
+TEST(Sweep, NothingIsReadOfASceneThatIsGone) {
+    std::vector<World> gone = worlds();
+    CandidateCache cache;
+    for (World& world : gone) {
+        Places places(*world.scene);
+        cache.expect(places.next(0.02), 1.0);
+        ASSERT_TRUE(cache.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres, 0,
+                                 places.next(0.02), 0.02, CandidateCache::Frame::Same));
+        cache.invalidate();
+        world.scene.reset();
+        cache.fetchOn();
+    }
+}
+
 TEST(Sweep, EndsAtTheFirstTouchAndNotLater) {
     constexpr double kTouch = 2e-13; // of sweep.cpp, with rounding
     for (const World& world : worlds()) {

@@ -6,8 +6,16 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace touchstone {
+
+namespace {
+
+constexpr size_t kLine = 64; // of memory, bytes
+
+} // namespace
 
 void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                         std::span<const uint32_t> indices) noexcept {
@@ -108,6 +116,18 @@ uint32_t nearOf(Float8 squared, float radiusSquared) {
     return static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<Float8>(squared <= radiusSquared)));
 }
 
+using Sides = std::array<std::array<float, 8>, 3>;
+/// Bit i: the ball meets box i.
+uint32_t metBy(const glm::vec3& centre, float radiusSquared, const Sides& low, const Sides& high) {
+    Float8 squared{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const Float8 away = awayFrom(load<Float8>(low[axis].data()), load<Float8>(high[axis].data()),
+                                     centre[static_cast<glm::length_t>(axis)]);
+        squared += away * away;
+    }
+    return nearOf(squared, radiusSquared);
+}
+
 } // namespace
 
 size_t TriangleTree::collectLeaf(const Leaf& leaf, const glm::vec3& centre, float radiusSquared,
@@ -140,21 +160,26 @@ size_t TriangleTree::collectLeaf(const Leaf& leaf, const glm::vec3& centre, floa
     return count;
 }
 
-/// Asks for the memory of a child that the walk will come to: the lines of all that wait come at once, where
-/// one by one each is waited for.
-[[gnu::always_inline]] inline void TriangleTree::fetch(uint32_t child) const noexcept {
-    constexpr size_t kLine = 64;
+/// Asks for the memory of a child that a walk will come to: the lines of all that wait come at once, where
+/// one by one each is waited for. Their number. In line, as all that calls it: a
+/// function that only asks for memory has no effect for GCC, which leaves out its calls.
+[[gnu::always_inline]] inline uint32_t TriangleTree::fetch(uint32_t child) const noexcept {
+    static_assert(sizeof(Leaf) == 3 * kLine && sizeof(Node) <= 4 * kLine);
     const bool isLeaf = (child & kLeafBit) != 0;
     const char* at = isLeaf ? reinterpret_cast<const char*>(&leaves_[child & ~kLeafBit])
                             : reinterpret_cast<const char*>(&nodes_[child]);
-    static_assert(sizeof(Leaf) == 3 * kLine && sizeof(Node) <= 4 * kLine);
     for (size_t line = 0; line < 3; ++line)
         __builtin_prefetch(at + line * kLine);
     if (!isLeaf)
         __builtin_prefetch(at + sizeof(Node) - 1);
+    return isLeaf ? 3 : 4;
 }
 
-size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept {
+/// Calls beyond(node, met) for each node that the walk reads, with the children that the ball meets.
+template <class Beyond>
+[[gnu::always_inline]] inline size_t TriangleTree::collectBeyond(const glm::vec3& centre, float radius,
+                                                                 std::span<Near> out,
+                                                                 const Beyond& beyond) const noexcept {
     if (nodes_.empty())
         return 0;
     const float wide = radius + kDoubt, radiusSquared = wide * wide;
@@ -170,20 +195,46 @@ size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Ne
             continue;
         }
         const Node& node = nodes_[next];
-        Float8 squared{};
-        for (size_t axis = 0; axis < 3; ++axis) {
-            const Float8 away =
-                awayFrom(load<Float8>(node.low[axis].data()), load<Float8>(node.high[axis].data()),
-                         centre[static_cast<glm::length_t>(axis)]);
-            squared += away * away;
-        }
-        for (uint32_t near = nearOf(squared, radiusSquared); near != 0; near &= near - 1) {
+        const uint32_t met = metBy(centre, radiusSquared, node.low, node.high);
+        for (uint32_t near = met; near != 0; near &= near - 1) {
             const uint32_t child = node.child[static_cast<size_t>(std::countr_zero(near))];
             fetch(child);
             stack[waiting++] = child;
         }
+        beyond(node, met);
     }
     return count;
+}
+
+[[gnu::always_inline]] inline void TriangleTree::fetchBeyond(const Node& node, uint32_t known,
+                                                             Ahead& ahead) const noexcept {
+    const uint32_t met = metBy(ahead.centre, ahead.radius * ahead.radius, node.low, node.high);
+    for (uint32_t far = met & ~known; far != 0 && ahead.left > 0; far &= far - 1) {
+        const uint32_t child = node.child[static_cast<size_t>(std::countr_zero(far))];
+        ahead.left -= std::min(fetch(child), ahead.left);
+        if ((child & kLeafBit) == 0 && ahead.count < ahead.waiting.size())
+            ahead.waiting[ahead.count++] = child;
+    }
+}
+
+size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept {
+    return collectBeyond(centre, radius, out, [](const Node&, uint32_t) {});
+}
+
+size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Near> out,
+                             Ahead& ahead) const noexcept {
+    ahead.count = 0;
+    ahead.left = kMostLines;
+    return collectBeyond(centre, radius, out,
+                         [&](const Node& node, uint32_t met) { fetchBeyond(node, met, ahead); });
+}
+
+void TriangleTree::fetchOn(Ahead& ahead) const noexcept {
+    std::array<uint32_t, std::tuple_size_v<decltype(ahead.waiting)>> come;
+    const uint32_t count = std::exchange(ahead.count, 0);
+    std::copy_n(ahead.waiting.begin(), count, come.begin());
+    for (const uint32_t node : std::span(come).first(count))
+        fetchBeyond(nodes_[node], 0, ahead);
 }
 
 } // namespace touchstone

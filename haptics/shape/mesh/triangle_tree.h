@@ -43,6 +43,24 @@ class TriangleTree {
     /// `out.size()` when more may meet it than fit. Deterministic; safe on the servo thread.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
 
+    /// Another ball, which a later walk is expected to collect. A walk asks for the memory that is read for
+    /// it, without waiting; nodes whose own memory has yet to come wait here.
+    struct Ahead {
+        glm::vec3 centre{0.0f};
+        float radius = 0.0f;
+        uint32_t left = 0;                  ///< lines of memory that may still be asked for
+        uint32_t count = 0;                 ///< of `waiting`
+        std::array<uint32_t, 32> waiting{}; ///< nodes; what does not fit is not read
+    };
+    /// Lines of 64 bytes that are asked for from one `collect` to the next, at most: three quarters of a
+    /// first cache of 32 kB.
+    static constexpr uint32_t kMostLines = 384;
+    /// `collect`, which begins to ask for what `ahead` meets beyond the ball. The result is the same.
+    [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out,
+                                 Ahead& ahead) const noexcept;
+    /// Reads the nodes that wait, one level of the tree, and asks for what they lead to.
+    void fetchOn(Ahead& ahead) const noexcept;
+
     /// Calls visit(triangle) for all triangles whose boxes the ray start + t * direction meets at 0 <= t <=
     /// end, and for some more, until it returns false; `visit` may shorten `end`. `start` of magnitude one.
     /// Defined in triangle_tree_ray.h. Safe on the servo thread.
@@ -75,7 +93,11 @@ class TriangleTree {
     };
     static void pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                      std::span<const uint32_t> indices) noexcept;
-    void fetch(uint32_t child) const noexcept;
+    uint32_t fetch(uint32_t child) const noexcept;
+    template <class Beyond>
+    size_t collectBeyond(const glm::vec3& centre, float radius, std::span<Near> out,
+                         const Beyond& beyond) const noexcept;
+    void fetchBeyond(const Node& node, uint32_t known, Ahead& ahead) const noexcept;
     size_t collectLeaf(const Leaf& leaf, const glm::vec3& centre, float radiusSquared,
                        std::span<Near> out) const noexcept;
 
