@@ -274,10 +274,10 @@ class CandidateCache {
         int object = -1;
         uint32_t index = 0, prepared = Candidate::kUnprepared;
     };
-    std::array<Kept, kMaxKept + 1> kept_{};                       ///< and one that counts for nothing
+    std::array<Kept, kMaxKept> kept_{};
     std::array<uint16_t, (size_t{1} << kKeptBits) + 1> keptAt_{}; ///< and a spare one
     size_t keptCount_ = 0;
-    std::array<uint16_t, kMaxKept + 1> retaken_{}; ///< items of this ball that were kept
+    std::array<uint16_t, kMaxKept + 1> retaken_{}; ///< items of this ball that were kept, and a spare one
     size_t retakenCount_ = 0;
     std::array<int, kMaxIgnored> ignored_{};
     NearShapes shapes_;

@@ -57,6 +57,18 @@ class Places {
     std::uniform_real_distribution<double> in_{-1.0, 1.0};
 };
 
+/// Balls of a hand that moves on: they overlap, but in each tenth it begins elsewhere.
+struct Wander {
+    glm::dvec3 centre{0.0}, way{0.0};
+    void next(int trial, double speed, Places& places) {
+        if (trial % 10 == 0) {
+            centre = places.next(0.02);
+            way = speed * glm::normalize(places.next(0.02) - centre);
+        }
+        centre += way * places.between(0.0, 1.0);
+    }
+};
+
 TEST(Sweep, NoBoundExceedsTheDistance) {
     for (const World& world : worlds()) {
         SCOPED_TRACE(world.name);
@@ -98,14 +110,11 @@ TEST(Sweep, NoBoundThatIsKeptFromBallToBallExceedsTheDistance) {
         SCOPED_TRACE(world.name);
         Places places(*world.scene);
         CandidateCache cache;
-        glm::dvec3 centre(0.0), way(0.0);
+        Wander hand;
+        const glm::dvec3& centre = hand.centre;
         for (int trial = 0; trial < 400; ++trial) {
             const double radius = std::pow(10.0, places.between(-2.0, -1.5));
-            if (trial % 10 == 0) {
-                centre = places.next(0.02);
-                way = 0.01 * glm::normalize(places.next(0.02) - centre);
-            }
-            centre += way * places.between(0.0, 1.0);
+            hand.next(trial, 0.01, places);
             std::vector<uint32_t> measured; // in the ball before
             for (size_t i = 0; i < cache.count(); i += 2) {
                 (void)cache.measureAhead(i,
@@ -147,15 +156,12 @@ TEST(Sweep, ABallIsTheSameWhateverIsExpectedNext) {
         SCOPED_TRACE(world.name);
         Places places(*world.scene);
         CandidateCache cache, plain;
-        glm::dvec3 centre(0.0), way(0.0);
+        Wander hand;
+        const glm::dvec3& centre = hand.centre;
         for (int trial = 0; trial < 200; ++trial) {
             const double radius = std::pow(10.0, places.between(-2.0, -0.5));
-            if (trial % 10 == 0) {
-                centre = places.next(0.02);
-                way = 0.02 * glm::normalize(places.next(0.02) - centre);
-            }
-            centre += way * places.between(0.0, 1.0);
-            cache.expect(centre + way * places.between(-1.0, 4.0),
+            hand.next(trial, 0.02, places);
+            cache.expect(centre + hand.way * places.between(-1.0, 4.0),
                          trial % 7 == 0 ? 0.0 : radius * std::pow(10.0, places.between(-1.0, 3.0)));
             const auto gather = [&](CandidateCache& into) {
                 return into.gather(world.scene->objects, world.scene->restMotions, world.scene->restSpheres,

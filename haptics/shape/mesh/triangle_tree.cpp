@@ -6,16 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 namespace touchstone {
-
-namespace {
-
-constexpr size_t kLine = 64; // of memory, bytes
-
-} // namespace
 
 void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                         std::span<const uint32_t> indices) noexcept {
@@ -161,9 +154,10 @@ size_t TriangleTree::collectLeaf(const Leaf& leaf, const glm::vec3& centre, floa
 }
 
 /// Asks for the memory of a child that a walk will come to: the lines of all that wait come at once, where
-/// one by one each is waited for. Their number. In line, as all that calls it: a
-/// function that only asks for memory has no effect for GCC, which leaves out its calls.
+/// one by one each is waited for. Their number. In line, as all that calls it: a function that only asks for
+/// memory has no effect for GCC, which leaves out its calls.
 [[gnu::always_inline]] inline uint32_t TriangleTree::fetch(uint32_t child) const noexcept {
+    constexpr size_t kLine = 64;
     static_assert(sizeof(Leaf) == 3 * kLine && sizeof(Node) <= 4 * kLine);
     const bool isLeaf = (child & kLeafBit) != 0;
     const char* at = isLeaf ? reinterpret_cast<const char*>(&leaves_[child & ~kLeafBit])
@@ -230,10 +224,8 @@ size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Ne
 }
 
 void TriangleTree::fetchOn(Ahead& ahead) const noexcept {
-    std::array<uint32_t, std::tuple_size_v<decltype(ahead.waiting)>> come;
-    const uint32_t count = std::exchange(ahead.count, 0);
-    std::copy_n(ahead.waiting.begin(), count, come.begin());
-    for (const uint32_t node : std::span(come).first(count))
+    const auto come = ahead.waiting;
+    for (const uint32_t node : std::span(come).first(std::exchange(ahead.count, 0)))
         fetchBeyond(nodes_[node], 0, ahead);
 }
 
