@@ -17,7 +17,7 @@ CandidateCache::CandidateCache()
 void CandidateCache::prepare(Candidate& item) noexcept {
     item.prepared = free_[--freeCount_];
     Prepared& made = pool_[item.prepared];
-    made.triangle = triangleOf(*item.source, item.index);
+    made.triangle = triangleAt(*item.source, item.place, item.index);
     made.at = glm::dvec3(NAN);
 }
 
@@ -87,6 +87,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
         item.source = &object;
         item.object = index;
         item.index = n.triangle;
+        item.place = n.place;
         item.measured = 0;
         item.prepared = keptCount_ > 0 ? takeKept(index, n.triangle) : Candidate::kUnprepared;
         retaken_[retakenCount_] = static_cast<uint16_t>(count_);
@@ -236,22 +237,6 @@ double CandidateCache::clearanceAt(const glm::dvec3& p, double reach) noexcept {
     return least;
 }
 
-/// Asks for the corners of what will be evaluated: first for all indices, then for all vertices, so that the
-/// memory of all comes at once.
-[[gnu::always_inline]] inline void
-CandidateCache::fetchTriangles(std::span<const Approach> all) const noexcept {
-    const auto eachMissing = [&](const auto& visit) {
-        for (const Approach& approach : all)
-            if (const Candidate& item = items_[approach.index]; item.prepared == Candidate::kUnprepared)
-                visit(*item.source, &item.source->indices[3 * static_cast<size_t>(item.index)]);
-    };
-    eachMissing([](const HapticObject&, const uint32_t* corner) { __builtin_prefetch(corner); });
-    eachMissing([](const HapticObject& object, const uint32_t* corner) {
-        for (size_t k = 0; k < 3; ++k)
-            __builtin_prefetch(&object.vertices[corner[k]]);
-    });
-}
-
 std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3& p, const glm::dvec3& move,
                                                                 double limit, double reach) noexcept {
     const double doubt = uncertainty();
@@ -278,7 +263,6 @@ std::span<CandidateCache::Approach> CandidateCache::approaching(const glm::dvec3
             approaches_[found++] = {.time = free > 0.0 ? free / -rate[k] : 0.0, .index = i, .steps = 0};
         }
     }
-    fetchTriangles({approaches_.data(), found});
     return {approaches_.data(), found};
 }
 

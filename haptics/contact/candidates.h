@@ -27,6 +27,7 @@ struct Candidate {
     const HapticObject* source = nullptr;
     int object = -1;                 ///< HapticScene::objects
     uint32_t index = 0;              ///< triangle of that object
+    uint32_t place = 0;              ///< of its corners, TriangleTree::Near::place
     uint32_t prepared = kUnprepared; ///< in CandidateCache::pool_
     uint32_t measured = 0;           ///< CandidateCache::place_ when its distance was last evaluated
 };
@@ -213,7 +214,6 @@ class CandidateCache {
                                     double reach) noexcept;
 
   private:
-    void fetchTriangles(std::span<const Approach> all) const noexcept;
     [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,

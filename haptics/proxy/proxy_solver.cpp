@@ -24,6 +24,12 @@ constexpr int kDropMoves = 4;
 /// Moves after which the proxy may be creeping around an edge.
 constexpr uint32_t kCreeping = 5;
 
+/// A slide ends over the next facet, or over the rounded edge, where it leads past a convex edge. What is
+/// then nearer than this share of the slide, up to 6 degrees between the facets, counts as if it were
+/// touched: its plane lets the proxy down and along in one move, in place of a drop and a slide. (A quarter
+/// of the slide is slower: more triangles are near.)
+constexpr double kNearBelow = 0.1;
+
 /// Moves after which the proxy may be circling at the bottom of a shape's hollow.
 constexpr uint32_t kCircling = 10;
 /// Leaps that a solve tries. One is mostly enough; a second one where the first met another cell's kink.
@@ -106,15 +112,39 @@ void ProxySolver::findContacts(double within) noexcept {
         rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 
-/// A plane lets the proxy down to the resting gap, or lifts it there after a hit. Around that gap its offset
-/// is zero: between planes a millionth of a degree apart, an offset of a tenth of the gap would be a tenth of
-/// a micrometre of sideways motion, again in every move.
-void ProxySolver::buildPlanes() noexcept {
+/// Where the proxy would move to among the planes of the contacts. A plane lets it down to the resting gap,
+/// or lifts it there after a hit. Around that gap its offset is zero: between planes a millionth of a degree
+/// apart, an offset of a tenth of the gap would be a tenth of a micrometre of sideways motion, again in every
+/// move.
+[[gnu::always_inline]] inline void ProxySolver::findSubGoal(const glm::dvec3& goal) noexcept {
     constexpr double kContent = 0.3 * kContactGap;
     for (uint32_t i = 0; i < rest_.contactCount; ++i) {
         const double lack = kContactGap - rest_.contacts[i].gap;
         rest_.planes[i] = {rest_.contacts[i].normal, std::abs(lack) > kContent ? lack : 0.0};
     }
+    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+}
+
+/// Over a convex edge: the same with what is near, of what the ball holds, and not touched. Where that is too
+/// much, or would hold the proxy, it counts for nothing, and the proxy drops. Out of line: code that few
+/// ticks need must not take registers from code that all do.
+[[gnu::noinline]] void ProxySolver::findSubGoalBelow(const glm::dvec3& goal) noexcept {
+    bool full = false;
+    rest_.contactCount = touchstone::findContacts(state_.candidates, state_.proxy, radius_,
+                                                  kNearBelow * slid_, rest_.contacts, full);
+    if (!full) {
+        findSubGoal(goal);
+        if (glm::length(rest_.activeSet.point) > restLength(rest_.iterations))
+            return;
+    }
+    rest_.contactCount = 0;
+    findSubGoal(goal);
+}
+
+/// What was found near and not touched: no contact of the tick.
+void ProxySolver::forgetContacts() noexcept {
+    rest_.contactCount = 0;
+    rest_.activeSet = SubGoal{};
 }
 
 void ProxySolver::placeAt(const glm::dvec3& p) noexcept {
@@ -136,6 +166,7 @@ bool ProxySolver::returnTo(const glm::dvec3& p, const glm::dvec3&) noexcept {
 
 void ProxySolver::moveTowards(const glm::dvec3& goal) noexcept {
     leaps_ = kLeaps;
+    slid_ = 0.0;
     while (advance(goal)) {
     }
     leaps_ = 0; // a drop does not slide
@@ -145,6 +176,7 @@ void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
     const int budget =
         std::exchange(budget_, std::max(budget_, static_cast<int>(rest_.iterations) + kDropMoves));
     bool landed = false;
+    slid_ = 0.0;
     while (!landed && advance(goal)) {
         findContacts();
         landed = rest_.contactCount > 0;
@@ -152,8 +184,7 @@ void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
     budget_ = budget;
     if (!landed)
         return;
-    buildPlanes();
-    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    findSubGoal(goal);
 }
 
 bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
@@ -241,19 +272,27 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
     findContacts();
-    buildPlanes();
-    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    const bool overEdge = rest_.contactCount == 0 && slid_ > 0.0 && rest_.iterations < kCreeping &&
+                          state_.candidates.shapes().empty();
+    if (overEdge) [[unlikely]]
+        findSubGoalBelow(goal);
+    else
+        findSubGoal(goal);
     const glm::dvec3 move = rest_.activeSet.point;
     const double length = glm::length(move);
     if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves ||
         (rest_.iterations >= kCircling && circles(goal, length))) {
         withoutProgress_ = 0;
+        if (overEdge)
+            forgetContacts();
         return false;
     }
     if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
         rest_.flags = rest_.flags | TickFlag::BudgetReached;
         // In the air over the surface that it was sliding on: that surface still holds the HIP off, or the
         // force would drop out.
+        if (overEdge)
+            forgetContacts();
         if (rest_.contactCount == 0)
             findContacts(lastMove_);
         return false;
@@ -261,18 +300,23 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (rest_.iterations >= kCreeping && rollAround(goal)) {
         ++rest_.iterations;
         withoutProgress_ = 0;
+        slid_ = 0.0;
         return true;
     }
     if (leaps_ > 0 && rest_.contactCount > 0 && rest_.contacts[0].candidate == Contact::kNoCandidate &&
         leapToRest(goal)) {
         ++rest_.iterations;
         withoutProgress_ = 0;
+        slid_ = 0.0;
         return true;
     }
     const glm::dvec3 direction = move / length;
     const double known = cover(direction, length);
-    if (known < 0.0)
+    if (known < 0.0) {
+        if (overEdge)
+            forgetContacts();
         return false;
+    }
     const double limit = std::min(1.0, known / length);
     const double share = timeOfImpact(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, limit);
     lastMove_ = share * length;
@@ -280,6 +324,7 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
         slideUp(goal, move, share, known);
     else
         state_.proxy += share * move;
+    slid_ = share >= limit && rest_.activeSet.count > 0 ? lastMove_ : 0.0;
     state_.candidates.moved();
     ++rest_.iterations;
     withoutProgress_ = lastMove_ <= kRestLength ? withoutProgress_ + 1 : 0;

@@ -121,15 +121,20 @@ class ProxySolver {
     [[nodiscard]] bool circles(const glm::dvec3& goal, double length) noexcept;
     void slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share, double covered) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
+    [[nodiscard]] glm::dvec3 ballAhead(const glm::dvec3& direction, double wanted, double margin) noexcept;
     bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
-    void buildPlanes() noexcept;
+    void findSubGoal(const glm::dvec3& goal) noexcept;
+    void findSubGoalBelow(const glm::dvec3& goal) noexcept;
+    void forgetContacts() noexcept;
 
     const HapticScene& scene_;
     ObjectMotions motions_;
     double workspaceRadius_;
     double radius_ = 0.0;
     int withoutProgress_ = 0;
+    int gathers_ = 0;             ///< of this tick, and attempts at them
     int leaps_ = 0;               ///< that this solve may still try
+    double slid_ = 0.0;           ///< the last move of this solve, where it was a slide that no surface ended
     double lastMove_ = 0.0;       ///< object units, of this tick
     double lastSlide_ = INFINITY; ///< towards its goal, of this tick; only where shapes are near
     double travel_ = 0.0;         ///< of the HIP in this tick

@@ -49,6 +49,40 @@ TEST(Embree, AGatheredBallHoldsEveryTriangleThatMeetsIt) {
     }
 }
 
+/// Each triangle on its own, a tenth smaller.
+assets::Shape apart(const assets::Shape& shape) {
+    assets::Shape result;
+    for (size_t t = 0; t + 2 < shape.indices.size(); t += 3) {
+        glm::dvec3 centre(0.0);
+        for (size_t k = 0; k < 3; ++k)
+            centre += glm::dvec3(shape.positions[shape.indices[t + k]]) / 3.0;
+        for (size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 corner(shape.positions[shape.indices[t + k]]);
+            result.indices.push_back(static_cast<uint32_t>(result.positions.size()));
+            result.positions.emplace_back(centre + 0.9 * (corner - centre));
+        }
+    }
+    return result;
+}
+
+TEST(Embree, EveryTriangleThatIsFoundHasACopyOfItsOwnCorners) {
+    // In the last no triangle shares a vertex: leaves of 16 have 48.
+    for (const auto& shape : {assets::torus(0.06, 0.025, 72, 45), assets::box({1.0, 0.1, 0.1}, 1),
+                              assets::sphere(0.05, 12, 12), apart(assets::torus(0.06, 0.025, 40, 30))}) {
+        const auto scene = compileHapticScene(sceneOf(shape), Similarity{});
+        const HapticObject& object = *scene->objects[0];
+        std::vector<TriangleTree::Near> found(object.triangleCount() + 32);
+        const size_t count = object.tree.collect(glm::vec3(0.0f), 10.0f, found);
+        ASSERT_EQ(count, object.triangleCount() - object.droppedTriangles);
+        for (const TriangleTree::Near& near : std::span(found).first(count)) {
+            ASSERT_TRUE(TriangleTree::isCopied(near.place));
+            for (size_t k = 0; k < 3; ++k)
+                EXPECT_EQ(object.tree.corners(near.place)[k],
+                          object.vertices[object.indices[3 * size_t{near.triangle} + k]]);
+        }
+    }
+}
+
 /// Lines of memory that a walk asks for beyond its ball, until nothing waits.
 uint32_t linesAskedFor(const HapticObject& object, const glm::vec3& centre, float radius,
                        const glm::vec3& next, float nextRadius) {

@@ -93,6 +93,55 @@ assets::Shape ridge(double deviation) {
     return soup(corners);
 }
 
+TEST(Edges, AProxyThatSlidesOverAConvexEdgeGoesDownAndOnInOneMove) {
+    // Each move round the edge triples the angle that it has turned by, from as little as its first
+    // overshoot.
+    for (const double radius : {0.0, 0.5e-3}) {
+        uint32_t most = 0;
+        uint64_t moves = 0, ticks = 0;
+        for (int trial = 0; trial < 40; ++trial) {
+            const Variant v{radius, false};
+            const double deviation = (0.5 + 4.0 * trial / 39.0) * kDegree;
+            TouchBench bench(sceneOf(ridge(deviation)), v.settings());
+            bench.step({-0.002, 0.001, 0.0});
+            bench.moveTo({-0.001 - 2.5e-6 * trial, -0.001, 0.0}, 0.05);
+            bench.moveTo({0.001, -0.001, 0.0}, 0.1, [&](const HapticOutput& out) {
+                ASSERT_FALSE(has(out.flags, TickFlag::BudgetReached));
+                most = std::max(most, out.iterations);
+                moves += out.iterations;
+                ++ticks;
+                // On the facets, or round the edge: the nearest point of the surface is a radius away.
+                const double slope = std::tan(0.5 * deviation);
+                const double height = (out.proxy.y + std::abs(out.proxy.x) * slope) / std::hypot(1.0, slope);
+                const double foot = std::abs(out.proxy.x) - height * std::sin(0.5 * deviation);
+                const double distance = foot > 0.0 ? height : glm::length(glm::dvec2(out.proxy));
+                EXPECT_NEAR(distance, std::max(radius, 0.5e-6 * 0.1414), 1e-8);
+            });
+        }
+        EXPECT_LE(most, radius > 0.0 ? 5u : 2u) << "9 and 3 by drops and slides apart";
+        EXPECT_LE(moves, ticks + ticks / 12) << "1.06 and 1.05 moves a tick; 1.12 and 1.10";
+    }
+}
+
+TEST(Edges, AProxyThatCatchesUpSidewaysCoversTheHandsWayInEachMove) {
+    // On a dense mesh a ball holds little more than what the hand moves by. The proxy lags far behind along
+    // z, and the hand goes on along x.
+    HapticSettings settings = Variant{0.0, false}.settings();
+    settings.iterationBudget = 6;
+    TouchBench bench(sceneOf(assets::plane(0.08, 0.08, 400, 400)), settings);
+    bench.step({-0.03, 0.001, -0.035});
+    bench.moveTo({-0.03, -0.001, -0.035}, 0.05);
+    bench.moveTo({-0.03, -0.001, 0.035}, 70.0);
+    int ticks = 0;
+    const auto lag = [&] { return std::abs(bench.output.proxy.z - 0.035); };
+    EXPECT_GT(lag(), 0.05);
+    while (lag() > 1e-6 && ticks < 60) {
+        bench.moveTo(bench.output.hip + glm::dvec3(1e-3, 0.0, 0.0), 1.0);
+        ++ticks;
+    }
+    EXPECT_LE(ticks, 8) << "7; by balls ahead of the hand alone 17";
+}
+
 TEST(Edges, FacetsAQuarterDegreeApartNeverHoldThroughAMove) {
     // CHAI3D stuck for good in 17 to 26 of 40 such holds.
     for (const Variant& v : allVariants())

@@ -38,8 +38,9 @@ void defineBench(CLI::App& app, BenchOptions& options) {
         ->type_name("")
         ->check(CLI::IsMember({"fast", "growth", "moving", "fields", "protocol"}));
     app.add_option("--json", options.json, "Write the figures here")->type_name("FILE");
-    app.add_option("--largest", options.largestTriangles,
-                   "Leave out what has more triangles [1000000]; 10000000 takes 2.5 GB and half a minute")
+    app.add_option(
+           "--largest", options.largestTriangles,
+           "Leave out what has more triangles [1000000]; 10000000 takes 2.6 GB and a quarter of a minute")
         ->type_name("N");
     app.add_option("--rounds", options.rounds, "Turns of 1000 ticks for each case [20]")
         ->type_name("N")

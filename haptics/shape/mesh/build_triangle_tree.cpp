@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace touchstone {
 
@@ -21,6 +23,7 @@ namespace {
 constexpr const char* kBoxes = "boxing triangles";
 constexpr const char* kSearchTree = "building the search tree";
 constexpr const char* kFlat = "packing the search tree";
+constexpr const char* kCorners = "copying corners";
 
 /// Embree's allocator returns these during the build; they are freed once the tree is complete.
 struct TemporaryNode {
@@ -241,9 +244,63 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const 
     leaves_.resize(unpacked.size());
     inParallel(unpacked.size(), progress.part(0.92, 1.0), kFlat, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            leaves_[i].count = unpacked[i]->count;
+            leaves_[i].count = static_cast<uint8_t>(unpacked[i]->count);
+            leaves_[i].patch = kNoPatch;
             std::copy_n(unpacked[i]->triangle.begin(), unpacked[i]->count, leaves_[i].triangle.begin());
             pack(leaves_[i], vertices, vertices, indices);
+        }
+    });
+}
+
+void TriangleTree::copyCorners(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
+                               const Progress& progress) {
+    struct Patch {
+        std::array<uint32_t, 3 * kLeafSize> vertex;
+        std::array<uint8_t, 3 * kLeafSize> corner;
+        static_assert(3 * kLeafSize / sizeof(float) + 3 * (3 * kLeafSize - 1) <= UINT8_MAX);
+        size_t vertices = 0;
+        size_t first = 0; ///< vertex, in floats from the beginning
+        [[nodiscard]] size_t pieces() const {
+            return (first * sizeof(float) + vertices * sizeof(glm::vec3) + sizeof(Piece) - 1) / sizeof(Piece);
+        }
+    };
+    const auto patchOf = [&](const Leaf& leaf) {
+        Patch patch;
+        patch.first = (3 * size_t{leaf.count} + sizeof(float) - 1) / sizeof(float);
+        for (size_t i = 0; i < 3 * size_t{leaf.count}; ++i) {
+            const auto end = patch.vertex.begin() + static_cast<std::ptrdiff_t>(patch.vertices);
+            const uint32_t vertex = indices[3 * size_t{leaf.triangle[i / 3]} + i % 3];
+            const auto known = std::find(patch.vertex.begin(), end, vertex);
+            patch.corner[i] =
+                static_cast<uint8_t>(patch.first + 3 * static_cast<size_t>(known - patch.vertex.begin()));
+            if (known == end)
+                patch.vertex[patch.vertices++] = vertex;
+        }
+        return patch;
+    };
+    inParallel(leaves_.size(), progress.part(0.0, 0.4), kCorners, [&](size_t begin, size_t end) {
+        for (Leaf& leaf : std::span(leaves_).subspan(begin, end - begin))
+            leaf.pieces = static_cast<uint8_t>(patchOf(leaf).pieces());
+    });
+    size_t pieces = 0;
+    for (const Leaf& leaf : leaves_)
+        pieces += leaf.pieces;
+    if (pieces >= kNoPatch)
+        return; // 4 GiB
+    pieces = 0;
+    for (Leaf& leaf : leaves_)
+        leaf.patch = static_cast<uint32_t>(std::exchange(pieces, pieces + leaf.pieces));
+    patches_.reserve(pieces);
+    wantHugePages(patches_.data(), pieces * sizeof(Piece));
+    patches_.resize(pieces);
+    inParallel(leaves_.size(), progress.part(0.4, 1.0), kCorners, [&](size_t begin, size_t end) {
+        for (const Leaf& leaf : std::span(leaves_).subspan(begin, end - begin)) {
+            const Patch patch = patchOf(leaf);
+            auto* const to = reinterpret_cast<unsigned char*>(&patches_[leaf.patch]);
+            std::copy_n(patch.corner.begin(), 3 * size_t{leaf.count}, to);
+            for (size_t v = 0; v < patch.vertices; ++v)
+                std::memcpy(to + sizeof(float) * (patch.first + 3 * v), &vertices[patch.vertex[v]],
+                            sizeof(glm::vec3));
         }
     });
 }

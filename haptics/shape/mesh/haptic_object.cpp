@@ -290,7 +290,9 @@ std::unique_ptr<const HapticObject> buildCutObject(const Scene& scene, int insta
     addGradients(use, *object, progress.part(0.34, 0.35));
     if (!object->anySmooth)
         object->normals = {};
-    object->tree = TriangleTree(object->vertices, object->indices, progress.part(0.35, 1.0));
+    object->tree = TriangleTree(object->vertices, object->indices, progress.part(0.35, 0.95));
+    if (mesh.deformation == nullptr)
+        object->tree.copyCorners(object->vertices, object->indices, progress.part(0.95, 1.0));
     return object;
 }
 

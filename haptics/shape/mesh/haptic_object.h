@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -126,6 +127,15 @@ struct HapticObject {
     const uint32_t* corner = &object.indices[3 * static_cast<size_t>(index)];
     return {glm::dvec3(object.vertices[corner[0]]), glm::dvec3(object.vertices[corner[1]]),
             glm::dvec3(object.vertices[corner[2]])};
+}
+
+/// The same of a triangle that the object's tree has found at `place`.
+[[nodiscard]] inline Triangle triangleAt(const HapticObject& object, uint32_t place,
+                                         uint32_t index) noexcept {
+    if (!TriangleTree::isCopied(place)) [[unlikely]]
+        return triangleOf(object, index);
+    const std::array<glm::vec3, 3> corner = object.tree.corners(place);
+    return {glm::dvec3(corner[0]), glm::dvec3(corner[1]), glm::dvec3(corner[2])};
 }
 
 /// Builds the object of one instance. `workspaceFromScene` places it. Throws Error when Embree fails, and

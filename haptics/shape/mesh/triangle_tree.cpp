@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -52,6 +53,7 @@ void TriangleTree::pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<cons
 
 void TriangleTree::refit(std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                          std::span<const uint32_t> indices) noexcept {
+    assert(patches_.empty());
     for (Leaf& leaf : leaves_)
         pack(leaf, a, b, indices);
     // Parents come before children. A leaf's own boxes are those that its bytes unpack to.
@@ -147,17 +149,32 @@ size_t TriangleTree::collectLeaf(const Leaf& leaf, const glm::vec3& centre, floa
     for (near &= (1u << leaf.count) - 1u; near != 0; near &= near - 1) {
         const auto i = static_cast<size_t>(std::countr_zero(near));
         out[count++] = {.triangle = leaf.triangle[i],
+                        .place = (leaf.patch << kSlotBits) + static_cast<uint32_t>(i),
                         .distance = distance[i],
                         .away = {away[0][i], away[1][i], away[2][i]}};
     }
     return count;
 }
 
+constexpr size_t kLine = 64; ///< of memory, bytes
+
+/// Asks for the lines of a leaf's patch; their number. In line, as all that calls it: a function that only
+/// asks for memory has no effect for GCC, which leaves out its calls.
+[[gnu::always_inline]] inline uint32_t TriangleTree::fetchPatch(const Leaf& leaf) const noexcept {
+    if (leaf.patch == kNoPatch)
+        return 0;
+    const auto* const at = reinterpret_cast<const char*>(&patches_[leaf.patch]);
+    const size_t bytes = leaf.pieces * sizeof(Piece);
+    uint32_t lines = 1;
+    for (size_t byte = 0; byte < bytes; byte += kLine, ++lines)
+        __builtin_prefetch(at + byte);
+    __builtin_prefetch(at + bytes - 1);
+    return lines;
+}
+
 /// Asks for the memory of a child that a walk will come to: the lines of all that wait come at once, where
-/// one by one each is waited for. Their number. In line, as all that calls it: a function that only asks for
-/// memory has no effect for GCC, which leaves out its calls.
+/// one by one each is waited for. Their number.
 [[gnu::always_inline]] inline uint32_t TriangleTree::fetch(uint32_t child) const noexcept {
-    constexpr size_t kLine = 64;
     static_assert(sizeof(Leaf) == 3 * kLine && sizeof(Node) <= 4 * kLine);
     const bool isLeaf = (child & kLeafBit) != 0;
     const char* at = isLeaf ? reinterpret_cast<const char*>(&leaves_[child & ~kLeafBit])
@@ -185,7 +202,11 @@ template <class Beyond>
         if ((next & kLeafBit) != 0) {
             if (count + kLeafSize >= out.size())
                 return out.size();
-            count += collectLeaf(leaves_[next & ~kLeafBit], centre, radiusSquared, out.subspan(count));
+            const Leaf& leaf = leaves_[next & ~kLeafBit];
+            const size_t found = collectLeaf(leaf, centre, radiusSquared, out.subspan(count));
+            if (found > 0)
+                fetchPatch(leaf);
+            count += found;
             continue;
         }
         const Node& node = nodes_[next];
@@ -206,7 +227,7 @@ template <class Beyond>
     for (uint32_t far = met & ~known; far != 0 && ahead.left > 0; far &= far - 1) {
         const uint32_t child = node.child[static_cast<size_t>(std::countr_zero(far))];
         ahead.left -= std::min(fetch(child), ahead.left);
-        if ((child & kLeafBit) == 0 && ahead.count < ahead.waiting.size())
+        if (ahead.count < ahead.waiting.size())
             ahead.waiting[ahead.count++] = child;
     }
 }
@@ -225,8 +246,11 @@ size_t TriangleTree::collect(const glm::vec3& centre, float radius, std::span<Ne
 
 void TriangleTree::fetchOn(Ahead& ahead) const noexcept {
     const auto come = ahead.waiting;
-    for (const uint32_t node : std::span(come).first(std::exchange(ahead.count, 0)))
-        fetchBeyond(nodes_[node], 0, ahead);
+    for (const uint32_t part : std::span(come).first(std::exchange(ahead.count, 0)))
+        if ((part & kLeafBit) == 0)
+            fetchBeyond(nodes_[part], 0, ahead);
+        else if (ahead.left > 0)
+            ahead.left -= std::min(fetchPatch(leaves_[part & ~kLeafBit]), ahead.left);
 }
 
 } // namespace touchstone

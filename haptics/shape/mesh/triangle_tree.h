@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ class TriangleTree {
     /// A triangle near the point, by its box.
     struct Near {
         uint32_t triangle;
+        uint32_t place; ///< of its corners, for `corners`
         float distance; ///< lower bound, up to kDoubt
         glm::vec3 away; ///< from the nearest point of the box to the point; length `distance`
     };
@@ -35,22 +37,40 @@ class TriangleTree {
                  const Progress& progress = {});
 
     /// Fits the boxes to other vertices: each holds its triangles in `a`, in `b` and on every straight way
-    /// between. Neither allocates nor throws; O(n). Coordinates of magnitude one.
+    /// between. Neither allocates nor throws; O(n). Coordinates of magnitude one. Only without copied
+    /// corners.
     void refit(std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                std::span<const uint32_t> indices) noexcept;
+
+    /// Copies the corners of all triangles, leaf by leaf, so that those of near ones lie together: a
+    /// triangle's indices and vertices are four lines of memory far apart. For vertices that do not move.
+    /// O(n). Copies nothing where the copies would take 4 GiB. Throws Cancelled.
+    void copyCorners(std::span<const glm::vec3> vertices, std::span<const uint32_t> indices,
+                     const Progress& progress = {});
+    /// True for the place of a triangle whose corners are copied.
+    static constexpr bool isCopied(uint32_t place) noexcept { return place < (kNoPatch << kSlotBits); }
+    /// The corners of the triangle at a place that isCopied, as they were given.
+    [[nodiscard]] std::array<glm::vec3, 3> corners(uint32_t place) const noexcept {
+        const auto* patch = reinterpret_cast<const unsigned char*>(&patches_[place >> kSlotBits]);
+        const unsigned char* corner = patch + 3 * (place & (kLeafSize - 1));
+        std::array<glm::vec3, 3> at;
+        for (size_t k = 0; k < 3; ++k)
+            std::memcpy(&at[k], patch + sizeof(float) * corner[k], sizeof(glm::vec3));
+        return at;
+    }
 
     /// Writes all triangles whose boxes meet the ball; at most a few that do not. Returns their number, or
     /// `out.size()` when more may meet it than fit. Deterministic; safe on the servo thread.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out) const noexcept;
 
     /// Another ball, which a later walk is expected to collect. A walk asks for the memory that is read for
-    /// it, without waiting; nodes whose own memory has yet to come wait here.
+    /// it, without waiting; nodes and leaves whose own memory has yet to come wait here.
     struct Ahead {
         glm::vec3 centre{0.0f};
         float radius = 0.0f;
         uint32_t left = 0;                  ///< lines of memory that may still be asked for
         uint32_t count = 0;                 ///< of `waiting`
-        std::array<uint32_t, 32> waiting{}; ///< nodes; what does not fit is not read
+        std::array<uint32_t, 64> waiting{}; ///< what does not fit is not read
     };
     /// Lines of 64 bytes that are asked for from one `collect` to the next, at most: three quarters of a
     /// first cache of 32 kB.
@@ -58,7 +78,7 @@ class TriangleTree {
     /// `collect`, which begins to ask for what `ahead` meets beyond the ball. The result is the same.
     [[nodiscard]] size_t collect(const glm::vec3& centre, float radius, std::span<Near> out,
                                  Ahead& ahead) const noexcept;
-    /// Reads the nodes that wait, one level of the tree, and asks for what they lead to.
+    /// Reads what waits, one level of the tree, and asks for what it leads to.
     void fetchOn(Ahead& ahead) const noexcept;
 
     /// Calls visit(triangle) for all triangles whose boxes the ray start + t * direction meets at 0 <= t <=
@@ -69,7 +89,7 @@ class TriangleTree {
                  const Visit& visit) const noexcept;
 
     [[nodiscard]] uint64_t memoryBytes() const noexcept {
-        return nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Leaf);
+        return nodes_.size() * sizeof(Node) + leaves_.size() * sizeof(Leaf) + patches_.size() * sizeof(Piece);
     }
 
   private:
@@ -79,6 +99,9 @@ class TriangleTree {
     static constexpr size_t kLeafSize = 16;
     static constexpr uint32_t kLeafBit = 1u << 31;
     static constexpr size_t kMaxDepth = 64;
+    static constexpr uint32_t kSlotBits = 4;
+    static_assert(size_t{1} << kSlotBits == kLeafSize);
+    static constexpr uint32_t kNoPatch = UINT32_MAX >> kSlotBits;
 
     struct alignas(32) Node {
         std::array<std::array<float, kWidth>, 3> low, high; ///< an unused child is farther than any real box
@@ -89,11 +112,17 @@ class TriangleTree {
         std::array<uint32_t, kLeafSize> triangle;
         std::array<std::array<uint8_t, kLeafSize>, 3> low, high;
         glm::vec3 origin, step;
-        uint32_t count;
+        uint8_t count;
+        uint16_t pieces; ///< of its patch
+        uint32_t patch;  ///< the first of them, in `patches_`
     };
+    /// The vertices of a leaf, each once, follow three bytes a triangle: where each corner is, in floats from
+    /// the beginning of the patch.
+    struct alignas(16) Piece : std::array<unsigned char, 16> {};
     static void pack(Leaf& leaf, std::span<const glm::vec3> a, std::span<const glm::vec3> b,
                      std::span<const uint32_t> indices) noexcept;
     uint32_t fetch(uint32_t child) const noexcept;
+    uint32_t fetchPatch(const Leaf& leaf) const noexcept;
     template <class Beyond>
     size_t collectBeyond(const glm::vec3& centre, float radius, std::span<Near> out,
                          const Beyond& beyond) const noexcept;
@@ -103,6 +132,7 @@ class TriangleTree {
 
     std::vector<Node> nodes_; ///< root first
     std::vector<Leaf> leaves_;
+    std::vector<Piece> patches_; ///< empty: none
 };
 
 } // namespace touchstone
