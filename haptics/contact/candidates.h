@@ -131,9 +131,13 @@ class CandidateCache {
     [[nodiscard]] double freeAlong(const glm::dvec3& p, const glm::dvec3& direction,
                                    double reach) const noexcept {
         const double room = radius_ - reach;
-        const glm::dvec3 offset = p - centre_;
+        return valid_ && room >= 0.0 ? wayInBall(p - centre_, direction, room) : -1.0;
+    }
+    /// The same in a ball of radius `room`, from a place that is `offset` from its centre.
+    [[nodiscard]] static double wayInBall(const glm::dvec3& offset, const glm::dvec3& direction,
+                                          double room) noexcept {
         const double inside = room * room - glm::dot(offset, offset);
-        if (!valid_ || room < 0.0 || inside < 0.0)
+        if (inside < 0.0)
             return -1.0;
         if (direction == glm::dvec3(0.0))
             return 0.0;

@@ -5,7 +5,6 @@
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace touchstone {
 
@@ -39,10 +38,10 @@ constexpr double kNextBall = 2.5, kNextSize = 1.1;
 
 /// Centre of a ball of this margin for a move along `direction`, of which it should hold for `wanted`.
 glm::dvec3 ProxySolver::ballAhead(const glm::dvec3& direction, double wanted, double margin) noexcept {
-    const double along = kAhead * glm::dot(heading_, direction), inside = 1.0 - kAhead * kAhead;
-    const bool holds = margin * (along + std::sqrt(along * along + inside)) >= wanted;
-    const bool catchesUp = ++gathers_ > kCatchingUp && !holds;
-    return state_.proxy + kAhead * margin * (catchesUp ? direction : heading_);
+    const glm::dvec3 ahead = kAhead * margin * heading_;
+    const bool catchesUp =
+        ++gathers_ > kCatchingUp && CandidateCache::wayInBall(-ahead, direction, margin) < wanted;
+    return state_.proxy + (catchesUp ? kAhead * margin * direction : ahead);
 }
 
 bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept {

@@ -104,11 +104,16 @@ void ProxySolver::measureClearance() noexcept {
         std::min(stands, radius_) * motions_[static_cast<size_t>(state_.reference)].workspaceFromObject.scale;
 }
 
-void ProxySolver::findContacts(double within) noexcept {
+/// False where there are more than fit.
+bool ProxySolver::findAllContacts(double within) noexcept {
     bool full = false;
     rest_.contactCount =
         touchstone::findContacts(state_.candidates, state_.proxy, radius_, within, rest_.contacts, full);
-    if (full)
+    return !full;
+}
+
+void ProxySolver::findContacts(double within) noexcept {
+    if (!findAllContacts(within))
         rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 
@@ -129,10 +134,7 @@ void ProxySolver::findContacts(double within) noexcept {
 /// much, or would hold the proxy, it counts for nothing, and the proxy drops. Out of line: code that few
 /// ticks need must not take registers from code that all do.
 [[gnu::noinline]] void ProxySolver::findSubGoalBelow(const glm::dvec3& goal) noexcept {
-    bool full = false;
-    rest_.contactCount = touchstone::findContacts(state_.candidates, state_.proxy, radius_,
-                                                  kNearBelow * slid_, rest_.contacts, full);
-    if (!full) {
+    if (findAllContacts(kNearBelow * slid_)) {
         findSubGoal(goal);
         if (glm::length(rest_.activeSet.point) > restLength(rest_.iterations))
             return;
@@ -141,10 +143,13 @@ void ProxySolver::findContacts(double within) noexcept {
     findSubGoal(goal);
 }
 
-/// What was found near and not touched: no contact of the tick.
-void ProxySolver::forgetContacts() noexcept {
-    rest_.contactCount = 0;
-    rest_.activeSet = SubGoal{};
+/// Ends a solve, over an edge without what was found near and not touched: no contact of the tick.
+bool ProxySolver::stop(bool overEdge) noexcept {
+    if (overEdge) {
+        rest_.contactCount = 0;
+        rest_.activeSet = SubGoal{};
+    }
+    return false;
 }
 
 void ProxySolver::placeAt(const glm::dvec3& p) noexcept {
@@ -283,16 +288,13 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves ||
         (rest_.iterations >= kCircling && circles(goal, length))) {
         withoutProgress_ = 0;
-        if (overEdge)
-            forgetContacts();
-        return false;
+        return stop(overEdge);
     }
     if (rest_.iterations >= static_cast<uint32_t>(budget_)) {
         rest_.flags = rest_.flags | TickFlag::BudgetReached;
+        stop(overEdge);
         // In the air over the surface that it was sliding on: that surface still holds the HIP off, or the
         // force would drop out.
-        if (overEdge)
-            forgetContacts();
         if (rest_.contactCount == 0)
             findContacts(lastMove_);
         return false;
@@ -312,11 +314,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     }
     const glm::dvec3 direction = move / length;
     const double known = cover(direction, length);
-    if (known < 0.0) {
-        if (overEdge)
-            forgetContacts();
-        return false;
-    }
+    if (known < 0.0)
+        return stop(overEdge);
     const double limit = std::min(1.0, known / length);
     const double share = timeOfImpact(state_.candidates, state_.proxy, move, radius_ + kStrikeGap, limit);
     lastMove_ = share * length;

@@ -113,6 +113,7 @@ class ProxySolver {
     void adoptReference(int reference) noexcept;
     void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
+    [[nodiscard]] bool findAllContacts(double within) noexcept;
     void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
@@ -125,7 +126,7 @@ class ProxySolver {
     bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
     void findSubGoal(const glm::dvec3& goal) noexcept;
     void findSubGoalBelow(const glm::dvec3& goal) noexcept;
-    void forgetContacts() noexcept;
+    bool stop(bool overEdge) noexcept;
 
     const HapticScene& scene_;
     ObjectMotions motions_;

@@ -234,13 +234,11 @@ TriangleTree::TriangleTree(std::span<const glm::vec3> vertices, std::span<const 
                            .align1 = 0.0f};
         root = &above;
     }
-    nodes_.reserve(build.nodes + 1);
-    wantHugePages(nodes_.data(), nodes_.capacity() * sizeof(Node));
+    reserveInHugePages(nodes_, build.nodes + 1);
     std::vector<const TemporaryLeaf*> unpacked;
     unpacked.reserve(build.leaves);
     Flattener{nodes_, unpacked, progress.part(0.85, 0.92), build.leaves}.add(root, 0);
-    leaves_.reserve(unpacked.size());
-    wantHugePages(leaves_.data(), unpacked.size() * sizeof(Leaf));
+    reserveInHugePages(leaves_, unpacked.size());
     leaves_.resize(unpacked.size());
     inParallel(unpacked.size(), progress.part(0.92, 1.0), kFlat, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
@@ -280,7 +278,7 @@ void TriangleTree::copyCorners(std::span<const glm::vec3> vertices, std::span<co
     };
     inParallel(leaves_.size(), progress.part(0.0, 0.4), kCorners, [&](size_t begin, size_t end) {
         for (Leaf& leaf : std::span(leaves_).subspan(begin, end - begin))
-            leaf.pieces = static_cast<uint8_t>(patchOf(leaf).pieces());
+            leaf.pieces = static_cast<uint16_t>(patchOf(leaf).pieces());
     });
     size_t pieces = 0;
     for (const Leaf& leaf : leaves_)
@@ -290,8 +288,7 @@ void TriangleTree::copyCorners(std::span<const glm::vec3> vertices, std::span<co
     pieces = 0;
     for (Leaf& leaf : leaves_)
         leaf.patch = static_cast<uint32_t>(std::exchange(pieces, pieces + leaf.pieces));
-    patches_.reserve(pieces);
-    wantHugePages(patches_.data(), pieces * sizeof(Piece));
+    reserveInHugePages(patches_, pieces);
     patches_.resize(pieces);
     inParallel(leaves_.size(), progress.part(0.4, 1.0), kCorners, [&](size_t begin, size_t end) {
         for (const Leaf& leaf : std::span(leaves_).subspan(begin, end - begin)) {

@@ -147,8 +147,7 @@ void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& 
     local = {};
     object.vertices = std::move(weld.vertices);
     object.weldedVertices = weld.merged;
-    object.indices.reserve(object.sourceIndices.size());
-    wantHugePages(object.indices.data(), object.sourceIndices.size() * sizeof(uint32_t));
+    reserveInHugePages(object.indices, object.sourceIndices.size());
     object.indices.resize(object.sourceIndices.size());
     inParallel(object.indices.size(), progress.part(0.5, 0.6), kIndices, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
@@ -162,8 +161,7 @@ void weldGeometry(const Mesh& mesh, std::vector<glm::vec3> local, HapticObject& 
     }
     object.closed = isClosed(object.indices, object.vertices.size(), progress.part(0.6, 1.0));
     std::vector<glm::vec3> vertices;
-    vertices.reserve(object.vertices.size() + 1);
-    wantHugePages(vertices.data(), vertices.capacity() * sizeof(glm::vec3));
+    reserveInHugePages(vertices, object.vertices.size() + 1);
     vertices.assign(object.vertices.begin(), object.vertices.end());
     vertices.emplace_back(0.0f); // spare, for Embree's 16-byte reads
     object.vertices = std::move(vertices);
