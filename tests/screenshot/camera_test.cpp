@@ -4,7 +4,7 @@
 #include "tests/screenshot/golden.h"
 #include "tests/screenshot/renderer_fixture.h"
 
-namespace touchstone::test {
+namespace touchstone::test::camera_test {
 namespace {
 
 constexpr double kAspect = 320.0 / 180.0;
@@ -84,4 +84,4 @@ TEST_F(CameraPicture, OrthographicGlassIsSortedByDepth) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::camera_test

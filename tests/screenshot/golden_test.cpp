@@ -3,7 +3,7 @@
 #include "tests/screenshot/golden.h"
 #include "tests/screenshot/renderer_fixture.h"
 
-namespace touchstone::test {
+namespace touchstone::test::golden_test {
 namespace {
 
 class Golden : public RendererFixture {
@@ -127,4 +127,4 @@ TEST_F(Golden, TiltDihedralAndEffects) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::golden_test

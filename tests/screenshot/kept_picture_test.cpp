@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::kept_picture_test {
 namespace {
 
 constexpr glm::ivec2 kCoarse{160, 90};
@@ -352,4 +352,4 @@ TEST_F(KeptPictureTest, SmallestAndImpossibleSizes) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::kept_picture_test

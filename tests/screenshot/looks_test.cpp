@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace touchstone::test {
+namespace touchstone::test::looks_test {
 namespace {
 
 constexpr float kRadiance = 0.5f;
@@ -340,4 +340,4 @@ TEST_F(Looks, AnEnvironmentIsTheLight) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::looks_test

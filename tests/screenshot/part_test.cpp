@@ -4,7 +4,7 @@
 #include "tests/screenshot/golden.h"
 #include "tests/screenshot/renderer_fixture.h"
 
-namespace touchstone::test {
+namespace touchstone::test::part_test {
 namespace {
 
 class Parts : public RendererFixture {
@@ -216,4 +216,4 @@ TEST_F(Parts, OrthographicViewsShowEqualsEqual) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::part_test

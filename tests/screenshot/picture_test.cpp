@@ -16,7 +16,7 @@
 #include <random>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::picture_test {
 namespace {
 
 class Picture : public RendererFixture {
@@ -526,4 +526,4 @@ TEST(SoftwareDevice, DrawsBehindWhatIsFelt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::picture_test

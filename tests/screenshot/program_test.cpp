@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace touchstone::test {
+namespace touchstone::test::program_test {
 namespace {
 
 class ProgramPictures : public RendererFixture {
@@ -189,4 +189,4 @@ TEST_F(ProgramPictures, OfThePaperDifferFromThePlainOne) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::program_test

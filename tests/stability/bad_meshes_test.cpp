@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::bad_meshes_test {
 namespace {
 
 /// A square sheet of 0.1 m, `cells` * `cells`, facing +y, whose vertex at a grid point is `at(i, k)`; each
@@ -227,4 +227,4 @@ TEST(BadMeshes, EveryPlaceFeelsTheSame) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::bad_meshes_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::edges_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -218,4 +218,4 @@ TEST(Edges, AnEdgeTurnsTheForceWhereTheGeometrySaysAndNotBefore) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::edges_test

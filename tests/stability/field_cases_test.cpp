@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::field_cases_test {
 namespace {
 
 constexpr double kRadian = 3.141592653589793 / 180.0;
@@ -311,4 +311,4 @@ TEST(HardGeometry, WhatIsSmallerThanAVoxelIsLost) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_cases_test

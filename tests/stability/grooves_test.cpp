@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::grooves_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -170,4 +170,4 @@ TEST(Grooves, PitsOfManyFacetsHoldTheProxyAtTheirBottom) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::grooves_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::holds_test {
 namespace {
 
 constexpr double kNoise = 5e-6; // m, rms
@@ -149,4 +149,4 @@ TEST(Holds, FiveHundredRandomHoldsSettleAndDoNotAmplifyTheHand) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::holds_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::moving_objects_test {
 namespace {
 
 void moveObjects(TouchBench& bench, const std::vector<Similarity>& now) {
@@ -64,4 +64,4 @@ TEST(MovingObjects, ASpinningAndSlidingBoxKeepsTheProxyOutside) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::moving_objects_test

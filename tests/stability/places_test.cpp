@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::places_test {
 namespace {
 
 constexpr double kRing = 0.06, kTube = 0.025; // m
@@ -151,4 +151,4 @@ TEST(Places, AModelScaledInContactNeitherKicksNorLetsThrough) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::places_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::pushed_proxy_test {
 namespace {
 
 using Box = MovingWorld::Box;
@@ -365,4 +365,4 @@ TEST(PushedProxy, ASoakAmongManyMoversNeverPassesThrough) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::pushed_proxy_test

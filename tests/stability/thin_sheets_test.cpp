@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::thin_sheets_test {
 namespace {
 
 /// How far `p` is outside of a box about `centre`, m; negative inside.
@@ -117,4 +117,4 @@ TEST(ThinSheets, AHipThatTeleportsThroughEverythingIsHeldWhereItStarted) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::thin_sheets_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::force_off_test {
 namespace {
 
 DeviceLimits limitsWith(double maxForceRate) {
@@ -126,4 +126,4 @@ TEST(ForceOff, ReplaysToTheLastBit) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::force_off_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::lost_device_test {
 namespace {
 
 /// A device that presses 3 mm deep on a box.
@@ -83,4 +83,4 @@ TEST(LostDevice, AnAgeThatIsNoNumberIsNotFresh) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::lost_device_test

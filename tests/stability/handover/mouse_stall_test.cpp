@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::mouse_stall_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -375,4 +375,4 @@ TEST(MouseStall, AForceThatIsOffLetsTheHandStayWhereItPresses) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::mouse_stall_test

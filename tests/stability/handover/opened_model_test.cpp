@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::opened_model_test {
 namespace {
 
 constexpr int kPlaces = 10, kRays = 200;
@@ -208,4 +208,4 @@ TEST(OpenedModel, AHandInSightBeginsWhereItIsPutDown) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::opened_model_test

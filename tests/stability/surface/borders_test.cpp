@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-namespace touchstone::test {
+namespace touchstone::test::borders_test {
 namespace {
 
 TEST(TextureStability, ABorderBetweenMaterialsChangesTheForceByTheirDifference) {
@@ -140,4 +140,4 @@ TEST(MaterialBorders, TheForceChangesByTheDifferenceAndNotByMore) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::borders_test

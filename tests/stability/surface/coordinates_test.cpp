@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::coordinates_test {
 namespace {
 
 /// Waves that fit round the torus, felt as one of these.
@@ -223,4 +223,4 @@ TEST(TextureStability, ANodeThatMirrorsAndStretchesIsTheSameSurfaceAsItsVertices
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::coordinates_test

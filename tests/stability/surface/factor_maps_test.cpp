@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::factor_maps_test {
 namespace {
 
 constexpr int kTexels = 128;
@@ -179,4 +179,4 @@ TEST(FactorMaps, AllThreeAtOnceStandStillWithTheHand) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::factor_maps_test

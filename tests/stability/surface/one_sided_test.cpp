@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::one_sided_test {
 
 using namespace truth;
 
@@ -378,4 +378,4 @@ TEST(OneSided, BesideABothSidedOneEachKeepsItsOwn) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::one_sided_test

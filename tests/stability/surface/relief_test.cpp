@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::relief_test {
 namespace {
 
 TEST(TextureStability, CliffsOfOneTexel) {
@@ -159,4 +159,4 @@ TEST(TextureStability, MapsOfAnyNumbersStayHarmless) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::relief_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::toggles_test {
 namespace {
 
 TEST(TextureStability, RungsChangedInContactChangeTheForceAndNothingElse) {
@@ -169,4 +169,4 @@ TEST(Toggles, AllOffIsTheBareTickAndOnAgainIsAsIfNeverOff) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::toggles_test

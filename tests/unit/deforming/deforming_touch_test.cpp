@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::deforming_touch_test {
 namespace {
 
 const std::string kBreathing = std::string(TOUCHSTONE_ASSETS) + "/breathing.glb";
@@ -162,4 +162,4 @@ TEST(DeformingTouch, PlaysAtTheSpeedAndTheTimeOfTheSettings) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::deforming_touch_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::hard_deforming_test {
 namespace {
 
 /// A box of `cells` x 1 x `cells` cells around the origin, closed, m.
@@ -164,4 +164,4 @@ TEST(HardDeforming, ALapThatEndsElsewhereJumps) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::hard_deforming_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::moving_triangle_test {
 namespace {
 
 long double leastDistance(const MovingTriangle& triangle, const glm::dvec3& from, const glm::dvec3& to) {
@@ -69,4 +69,4 @@ TEST(MovingTriangle, CarriesAPointAtItsSide) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::moving_triangle_test

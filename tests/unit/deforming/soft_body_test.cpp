@@ -11,7 +11,7 @@
 #include <cstring>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::soft_body_test {
 namespace {
 
 TEST(SoftBodies, AJellyIsPressedAlongAMonotoneCurveAndComesBack) {
@@ -569,4 +569,4 @@ TEST(SoftBodies, ASceneWithoutThemMakesNone) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::soft_body_test

@@ -1,7 +1,7 @@
 // A hand that presses what gives way exactly where many facets meet: at vertices, on edges and in facets.
 #include "tests/unit/deforming/soft_bench.h"
 
-namespace touchstone::test {
+namespace touchstone::test::soft_press_test {
 namespace {
 
 /// Down onto `place` (workspace) from 6 mm above it, `depth` m deep, a rest there, and up again.
@@ -89,4 +89,4 @@ TEST(SoftPress, AHandOnAClothStaysOutside) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::soft_press_test

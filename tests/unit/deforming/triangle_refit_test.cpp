@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::triangle_refit_test {
 namespace {
 
 /// `farthest`: where the deformation takes what was of magnitude one.
@@ -68,4 +68,4 @@ TEST(TriangleRefit, FindsThemWhereverADeformationTakesThem) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::triangle_refit_test

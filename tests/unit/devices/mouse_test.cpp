@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::mouse_test {
 namespace {
 
 constexpr double kTick = 0.001;
@@ -192,4 +192,4 @@ TEST(MouseHand, StaysWithinReach) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::mouse_test

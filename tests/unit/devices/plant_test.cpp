@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone {
+namespace touchstone::plant_test {
 namespace {
 
 constexpr glm::dvec3 kNowhere{0.0};
@@ -245,4 +245,4 @@ TEST(HandImpedance, AllocatesNothing) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::plant_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace touchstone {
+namespace touchstone::replay_device_test {
 namespace {
 
 HipPath parsed(const std::string& text) {
@@ -101,4 +101,4 @@ TEST(ReplayDevice, AllocatesNothing) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::replay_device_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::simulated_hand_test {
 namespace {
 
 constexpr double kTick = 0.001;
@@ -263,4 +263,4 @@ TEST(SimulatedHand, IsTheSameEveryTimeAndAllocatesNothing) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::simulated_hand_test

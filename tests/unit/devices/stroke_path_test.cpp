@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::stroke_path_test {
 namespace {
 
 const std::vector<glm::dvec3> kSquare{{0, 0, 0}, {0.05, 0, 0}, {0.05, 0.05, 0}, {0, 0.05, 0}};
@@ -88,4 +88,4 @@ TEST(StrokePath, RefusesWhatIsNoPath) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::stroke_path_test

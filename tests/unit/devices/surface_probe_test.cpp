@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::surface_probe_test {
 namespace {
 
 using Triangles = std::vector<glm::dvec3>; // three corners each
@@ -157,4 +157,4 @@ TEST(SurfaceProbe, LooksThroughTheBackOfWhatIsFeltFromItsFront) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::surface_probe_test

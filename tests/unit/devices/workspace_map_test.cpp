@@ -9,7 +9,7 @@
 #include <functional>
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::workspace_map_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -194,4 +194,4 @@ TEST(MappedDevice, ItsSecondButtonIsTheClutch) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::workspace_map_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::animation_test {
 namespace {
 
 using test::GltfMaker;
@@ -215,4 +215,4 @@ TEST(Animation, WeightsOfANodeWithoutTargetsAreLeftOutWithAWarning) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::animation_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::compression_test {
 namespace {
 
 using test::DracoFile;
@@ -124,4 +124,4 @@ TEST(Meshopt, MalformedExtensionsAreRefusedByField) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::compression_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::field_table_test {
 namespace {
 
 enum class Shape : uint8_t { Ball, Box };
@@ -78,4 +78,4 @@ TEST(FieldTable, RefusesWhatIsNoValueAndSaysWhatIs) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::field_table_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::flat_meshes_test {
 namespace {
 
 using test::append;
@@ -143,4 +143,4 @@ TEST(FlatMeshes, ChangedBytesAreRefusedOrGiveAScene) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::flat_meshes_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::gltf_cameras_test {
 namespace {
 
 using nlohmann::json;
@@ -191,4 +191,4 @@ TEST(GltfCameras, AreThoseThatTheShownScenePlaces) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_cameras_test

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace touchstone {
+namespace touchstone::gltf_flaws_test {
 namespace {
 
 using nlohmann::json;
@@ -348,4 +348,4 @@ TEST(GltfExtensions, UndeclaredOnesAreTold) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_flaws_test

@@ -2,7 +2,7 @@
 #include "engine/scene/haptic_numbers.h"
 #include "tests/unit/engine/load_support.h"
 
-namespace touchstone {
+namespace touchstone::gltf_haptics_test {
 namespace {
 
 using nlohmann::json;
@@ -516,4 +516,4 @@ TEST(GltfHaptics, ADerivedCoefficientNeverTurnsAStatedPairRound) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_haptics_test

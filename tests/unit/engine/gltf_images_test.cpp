@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace touchstone {
+namespace touchstone::gltf_images_test {
 namespace {
 
 using nlohmann::json;
@@ -208,4 +208,4 @@ TEST(GltfImages, BombsAreRefusedBeforeTheyAreUnpacked) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_images_test

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace touchstone {
+namespace touchstone::gltf_kind_test {
 namespace {
 
 using nlohmann::json;
@@ -79,4 +79,4 @@ TEST(GltfKind, ANumberThatNoDoubleHoldsIsNamed) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_kind_test

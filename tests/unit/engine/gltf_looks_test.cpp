@@ -3,7 +3,7 @@
 #include "tests/support/encoded_image.h"
 #include "tests/unit/engine/load_support.h"
 
-namespace touchstone {
+namespace touchstone::gltf_looks_test {
 namespace {
 
 using nlohmann::json;
@@ -170,4 +170,4 @@ TEST(GltfLooks, ImagesOfTheExtensionsAreDecodedForTheEye) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_looks_test

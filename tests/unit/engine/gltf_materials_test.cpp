@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::gltf_materials_test {
 namespace {
 
 using nlohmann::json;
@@ -133,4 +133,4 @@ TEST(GltfMaterials, TheDefaultMaterialIsAppendedOnlyIfNeeded) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_materials_test

@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-namespace touchstone {
+namespace touchstone::gltf_meshes_test {
 namespace {
 
 using test::GltfMaker;
@@ -409,4 +409,4 @@ TEST(GltfMeshes, ColoursOutsideTheirRangeAreClamped) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_meshes_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::gltf_nodes_test {
 namespace {
 
 using nlohmann::json;
@@ -150,4 +150,4 @@ TEST(GltfNodes, PlacesBeyondAllNumbersAreRefused) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_nodes_test

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace touchstone {
+namespace touchstone::gltf_shaders_test {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ TEST(GltfShaders, AChangedParameterIsWrittenAndTheDefaultIsLeftOut) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_shaders_test

@@ -1,7 +1,7 @@
 #include "engine/import/file/gltf_uri.h"
 #include "tests/unit/engine/load_support.h"
 
-namespace touchstone {
+namespace touchstone::gltf_uri_test {
 namespace {
 
 using test::contains;
@@ -139,4 +139,4 @@ TEST(UriFiles, OneFileForManyBuffersIsReadOnce) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_uri_test

@@ -1,6 +1,6 @@
 #include "tests/unit/engine/load_support.h"
 
-namespace touchstone {
+namespace touchstone::gltf_validation_test {
 namespace {
 
 using nlohmann::json;
@@ -240,4 +240,4 @@ TEST(GltfValidation, DeclaredBoundsNeedNotHoldForValuesThatAreReplaced) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gltf_validation_test

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <set>
 
-namespace touchstone {
+namespace touchstone::hostile_files_test {
 namespace {
 
 enum class Outcome { Loads, Warned, Refused };
@@ -270,4 +270,4 @@ TEST(HostileTable, HasEveryFile) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::hostile_files_test

@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace touchstone {
+namespace touchstone::image_use_test {
 namespace {
 
 using nlohmann::json;
@@ -120,4 +120,4 @@ TEST(ImageUse, WhatTwoMaterialsShareIsDecodedOnce) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::image_use_test

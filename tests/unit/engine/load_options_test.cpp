@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::load_options_test {
 namespace {
 
 using test::GltfMaker;
@@ -97,4 +97,4 @@ TEST(LoadOptions, ALoadStopsAtTheNextReportAfterItIsCancelled) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::load_options_test

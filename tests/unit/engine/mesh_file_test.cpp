@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-namespace touchstone {
+namespace touchstone::mesh_file_test {
 namespace {
 
 using test::Bytes;
@@ -225,4 +225,4 @@ TEST_F(MeshFiles, TheReaderHasNoFilesAndNoMemoryBeyondItsLimit) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::mesh_file_test

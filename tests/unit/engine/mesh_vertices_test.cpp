@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::mesh_vertices_test {
 namespace {
 
 using test::GltfMaker;
@@ -165,4 +165,4 @@ TEST(MeshVertices, AMirroredFileWithHeightsIsConsistent) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::mesh_vertices_test

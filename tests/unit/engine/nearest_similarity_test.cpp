@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::nearest_similarity_test {
 namespace {
 
 glm::dvec3 anyDirection(std::mt19937& random) {
@@ -64,4 +64,4 @@ TEST(NearestSimilarity, OfWhateverElseIsASimilarityOrNone) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::nearest_similarity_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::orientation_test {
 namespace {
 
 __extension__ using Wide = __int128;
@@ -50,4 +50,4 @@ TEST(Orientation, IsTheArea) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::orientation_test

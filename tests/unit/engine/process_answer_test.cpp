@@ -11,7 +11,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace touchstone {
+namespace touchstone::process_answer_test {
 namespace {
 
 using End = ProcessAnswer::End;
@@ -120,4 +120,4 @@ TEST(ProcessAnswer, TheLimitOfFilesDoesNotCountTheCallersOwn) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::process_answer_test

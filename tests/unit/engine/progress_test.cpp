@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::progress_test {
 namespace {
 
 constexpr size_t kMany = 7 * kProgressWork + 123;
@@ -92,4 +92,4 @@ TEST(InParallel, BringsOutWhatTheWorkThrowsAndStopsWhenCancelled) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::progress_test

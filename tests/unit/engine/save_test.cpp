@@ -9,7 +9,7 @@
 #include <iterator>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::save_test {
 namespace {
 
 using nlohmann::json;
@@ -376,4 +376,4 @@ TEST_F(SaveToDisk, AFileThatNeedsOthersStaysBesideThem) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::save_test

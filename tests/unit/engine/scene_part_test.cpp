@@ -16,7 +16,7 @@
 #include <tuple>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::scene_part_test {
 namespace {
 
 /// A torus and a sphere beneath a group, and a second sphere beside it; the third mesh's node has no name.
@@ -230,4 +230,4 @@ TEST(ScenePart, WhatIsFeltAsAFieldIsFilled) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::scene_part_test

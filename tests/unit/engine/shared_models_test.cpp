@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace touchstone {
+namespace touchstone::shared_models_test {
 namespace {
 
 void expectSound(const Scene& scene) {
@@ -94,4 +94,4 @@ TEST(OurScenes, LoadSoundWithoutAWarning) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::shared_models_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::tangent_space_test {
 namespace {
 
 Mesh square() {
@@ -202,4 +202,4 @@ TEST_P(ModelTangents, AgreeWithThoseOfTheFile) {
 INSTANTIATE_TEST_SUITE_P(Shared, ModelTangents, testing::Values("Barrel.glb", "WaterBottle.glb"));
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::tangent_space_test

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::texture_mapping_test {
 namespace {
 
 using nlohmann::json;
@@ -213,4 +213,4 @@ TEST(TextureMapping, AMapWithoutCoordinatesInTheFileIsFelt) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::texture_mapping_test

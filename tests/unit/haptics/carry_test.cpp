@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::carry_test {
 namespace {
 
 /// Boxes of 0.1 m with their middles at the given places.
@@ -349,4 +349,4 @@ TEST(MovingObstacles, InASceneThatComesToRestNothingStaysPinched) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::carry_test

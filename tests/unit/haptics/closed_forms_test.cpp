@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::closed_forms_test {
 namespace {
 
 HapticSettings plainSettings(double radius) {
@@ -380,4 +380,4 @@ TEST(ClosedForms, AHandThatGivesWayBearsItsPressAlone) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::closed_forms_test

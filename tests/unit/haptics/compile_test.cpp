@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::compile_test {
 namespace {
 
 /// A torus with everything that an object keeps: 2 * 700 * 350 triangles.
@@ -121,4 +121,4 @@ TEST(CompileHapticScene, ACopyOfAnObjectHasRaysOfItsOwn) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::compile_test

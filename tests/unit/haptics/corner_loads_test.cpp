@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::corner_loads_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kRadius = kCornerRadius;
@@ -244,4 +244,4 @@ TEST(CornerLoads, ARoundInARandomCornerGivesNoMoreThanTheCurlTimesItsArea) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::corner_loads_test

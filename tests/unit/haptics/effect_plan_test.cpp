@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::effect_plan_test {
 namespace {
 
 const PlannedEffect& planned(const HapticScene& scene, Effect effect, int material = 0) {
@@ -438,4 +438,4 @@ TEST(EffectPlan, WhatSettingsNeedIsBuiltWhenItIsAskedFor) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::effect_plan_test

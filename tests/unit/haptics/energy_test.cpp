@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace touchstone::test {
+namespace touchstone::test::energy_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -291,4 +291,4 @@ TEST(Energy, ADampingMapTakesWhatItsCoefficientsSay) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::energy_test

@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::field_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(FieldCacheTest, AMeshsFieldIsTheSameToTheBit) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_cache_test

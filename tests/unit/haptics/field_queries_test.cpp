@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::field_queries_test {
 namespace {
 
 /// A field that counts sweeps and searches for what is near.
@@ -104,4 +104,4 @@ TEST(FieldQueries, AreFewInSlowTicksToo) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_queries_test

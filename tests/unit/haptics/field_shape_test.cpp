@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::field_shape_test {
 namespace {
 
 struct StrokeError {
@@ -432,4 +432,4 @@ TEST(FieldGrid, KeepsABrickInItsNumberOfCells) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_shape_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::field_stroke_test {
 namespace {
 
 constexpr double kScale = 0.15; // m per object unit
@@ -426,4 +426,4 @@ TEST(FieldStroke, FrictionKeepsToItsConeWhereTheSurfaceCurves) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_stroke_test

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::force_shading_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -336,4 +336,4 @@ TEST(BezierShading, TheDirectionDoesNotJumpAtBorders) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::force_shading_test

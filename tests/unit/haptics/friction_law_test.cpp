@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::friction_law_test {
 namespace {
 
 FrictionInput stretched(FrictionState state, double length, double lastLength = 0.0) {
@@ -206,4 +206,4 @@ TEST(FrictionCone, OfSeveralContactsLosesTheSumOfTheirViscousTerms) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::friction_law_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::friction_test {
 
 using namespace truth;
 
@@ -321,4 +321,4 @@ TEST(Friction, MovingObjectsCarryTheStictionPoint) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::friction_test

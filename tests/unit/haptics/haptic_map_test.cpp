@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace touchstone::test {
+namespace touchstone::test::haptic_map_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -276,4 +276,4 @@ TEST(HapticMap, OfThreeChannelsTheFirstIsTheScalarByEveryFilter) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::haptic_map_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace touchstone::test {
+namespace touchstone::test::impedance_test {
 namespace {
 
 constexpr std::array kModels{FrictionMode::Zilles, FrictionMode::Ho, FrictionMode::Elastoplastic};
@@ -215,4 +215,4 @@ TEST(Impedance, FrictionToggledAndItsLawChangedInContactStayInTheCone) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::impedance_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::loads_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kRadius = kCornerRadius;
@@ -369,4 +369,4 @@ TEST(Loads, ABorderOfTwoStiffnessesInOnePlaneStepsByTheDepthTimesTheirDifference
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::loads_test

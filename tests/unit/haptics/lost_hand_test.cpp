@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::lost_hand_test {
 namespace {
 
 /// A box of 0.1 m, touched by a device that may be gone.
@@ -210,4 +210,4 @@ TEST(LostHand, AcrossAGapTheHandHasGoneNowhere) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::lost_hand_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::mesh_adjacency_test {
 namespace {
 
 MeshAdjacency adjacencyOf(const assets::Shape& shape) {
@@ -167,4 +167,4 @@ TEST(SurfaceWalk, AboutAVertexOfTheBorderItFindsTheNearestPlace) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::mesh_adjacency_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::neighbourhood_watch_test {
 
 using namespace truth;
 
@@ -880,4 +880,4 @@ TEST(NeighbourhoodWatch, WalksOverTrianglesWithoutArea) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::neighbourhood_watch_test

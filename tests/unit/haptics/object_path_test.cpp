@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::object_path_test {
 namespace {
 
 /// A turn by `angle` about the axis through `pivot` along `axis`, and `rise` along it.
@@ -148,4 +148,4 @@ TEST(MovingSurface, ObjectsThatMoveElsewhereAreNotCountedAsNear) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::object_path_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::patch_normal_test {
 namespace {
 
 using Three = std::array<glm::dvec3, 3>;
@@ -190,4 +190,4 @@ TEST(PatchNormal, IsOfThirdOrderAlongAnEdge) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::patch_normal_test

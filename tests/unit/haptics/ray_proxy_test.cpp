@@ -14,7 +14,7 @@
 #include <random>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::ray_proxy_test {
 
 using namespace truth;
 
@@ -569,4 +569,4 @@ TEST(FewPlanes, NearestIsTheProjectionOntoTheirMeet) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::ray_proxy_test

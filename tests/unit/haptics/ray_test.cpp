@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace touchstone {
+namespace touchstone::ray_test {
 namespace {
 
 TEST(Ray, BeyondWhatEmbreeTakesMeetsNothing) {
@@ -51,4 +51,4 @@ TEST(Ray, AnObjectOfNoSizeBesideAnotherIsTouchedAround) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::ray_test

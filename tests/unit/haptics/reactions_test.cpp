@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::reactions_test {
 namespace {
 
 /// A floor at y = 0 and a wall at x = 0, an object each, of different materials.
@@ -163,4 +163,4 @@ TEST(Reactions, OfSeveralHandsAreSummed) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::reactions_test

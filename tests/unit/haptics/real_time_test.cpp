@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone::test {
+namespace touchstone::test::real_time_test {
 namespace {
 
 TEST(RealTime, TheTickAllocatesNothing) {
@@ -30,4 +30,4 @@ TEST(RealTime, TheTickAllocatesNothing) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::real_time_test

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::sculpt_journal_test {
 namespace {
 
 SculptStep carve(const glm::dvec3& at, double radius) {
@@ -222,4 +222,4 @@ TEST(FieldExport, TheMeshLiesOnTheSurfaceWithNormalsOutwards) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sculpt_journal_test

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::sculptor_test {
 namespace {
 
 struct Worst {
@@ -453,4 +453,4 @@ TEST(Sculptor, RefusesBadValuesAndChangesNothing) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sculptor_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-namespace touchstone {
+namespace touchstone::settings_test {
 namespace {
 
 TEST(Settings, EveryNameCanBeReadAndWrittenBack) {
@@ -126,4 +126,4 @@ TEST(Settings, TheForceScaleScalesTheCommand) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::settings_test

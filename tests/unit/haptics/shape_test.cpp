@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::shape_test {
 namespace {
 
 /// About the origin, radius 1/2.
@@ -177,4 +177,4 @@ TEST(Shape, RefusesWhatHasNoSizeOrNoMaterial) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::shape_test

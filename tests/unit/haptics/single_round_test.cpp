@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace touchstone::test {
+namespace touchstone::test::single_round_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kStiffness = 1000.0;
@@ -212,4 +212,4 @@ TEST(SingleRound, InAHollowPressedDeeperThanItsRadiusTheRoundsDoNotConverge) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::single_round_test

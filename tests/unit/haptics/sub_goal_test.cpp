@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::sub_goal_test {
 namespace {
 
 /// Dykstra's alternating projections: slow, independent, converges to the nearest feasible point.
@@ -102,4 +102,4 @@ TEST(SubGoal, JawsThatOverlapHaveNoSolution) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::sub_goal_test

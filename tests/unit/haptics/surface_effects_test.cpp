@@ -11,7 +11,7 @@
 #include <cstring>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::surface_effects_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -284,4 +284,4 @@ TEST(Texture, ATexelStraightIntoTheSurfaceLeavesThePlainForce) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::surface_effects_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::surface_pick_test {
 namespace {
 
 Scene sphereScene(SideChoice sides, double radius = 0.05) {
@@ -82,4 +82,4 @@ TEST(SurfaceDistance, IsThatOfTheNearestTriangleWhereverTheObjectIs) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::surface_pick_test

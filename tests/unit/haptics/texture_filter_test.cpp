@@ -16,7 +16,7 @@
 #include <functional>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::texture_filter_test {
 namespace {
 
 using Real = long double;
@@ -473,4 +473,4 @@ TEST(TextureFilter, AStaircaseWithoutSlopesIsToldOf) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::texture_filter_test

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace touchstone::test {
+namespace touchstone::test::texture_law_test {
 namespace {
 
 using Real = long double;
@@ -336,4 +336,4 @@ INSTANTIATE_TEST_SUITE_P(Configurations, TextureLaw,
                          nameOf);
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::texture_law_test

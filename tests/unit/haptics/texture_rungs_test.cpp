@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace touchstone::test {
+namespace touchstone::test::texture_rungs_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793, kStiffness = 1000.0;
@@ -272,4 +272,4 @@ TEST(VirtualBump, APlaneThatFeelsCurvedByItsLateralForce) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::texture_rungs_test

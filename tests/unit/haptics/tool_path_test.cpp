@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::tool_path_test {
 namespace {
 
 constexpr double kScale = 0.15, kVoxel = 1.2 / 96 * kScale;
@@ -130,4 +130,4 @@ TEST(ToolPath, DragsByTheTipsMotionAndStampsOnce) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::tool_path_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace touchstone {
+namespace touchstone::triangle_distance_test {
 namespace {
 
 /// Distance by a fine search over the triangle, refined around the best point.
@@ -47,4 +47,4 @@ TEST(TriangleDistance, DegenerateTrianglesAreSegmentsAndPoints) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::triangle_distance_test

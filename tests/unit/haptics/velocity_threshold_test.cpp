@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::velocity_threshold_test {
 namespace {
 
 constexpr double kStiffness = 1000.0, kMuS = 0.5, kMuD = 0.3;
@@ -157,4 +157,4 @@ TEST(VelocityThreshold, StaysInTheConeWhateverTheHandDoes) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::velocity_threshold_test

@@ -19,7 +19,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::virtual_point_test {
 namespace {
 
 using Distance = std::function<double(const glm::dvec3&)>;
@@ -413,4 +413,4 @@ TEST(KimFriction, IsThePrintedFractionAtOneKilohertzAndNeverHoldsForEver) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::virtual_point_test

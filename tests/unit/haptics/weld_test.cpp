@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace touchstone {
+namespace touchstone::weld_test {
 namespace {
 
 /// What weldVertices says it does, by comparing every vertex with every cluster.
@@ -129,4 +129,4 @@ TEST(Weld, AVertexOfManyEdgesTakesNoSquareOfThem) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::weld_test

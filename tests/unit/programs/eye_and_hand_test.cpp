@@ -11,7 +11,7 @@
 #include <iterator>
 #include <random>
 
-namespace touchstone::program {
+namespace touchstone::program::eye_and_hand_test {
 namespace {
 
 constexpr size_t kPlaces = 65536;
@@ -301,4 +301,4 @@ TEST(EyeAndHand, FailAlike) {
 }
 
 } // namespace
-} // namespace touchstone::program
+} // namespace touchstone::program::eye_and_hand_test

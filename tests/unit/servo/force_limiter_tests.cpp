@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::force_limiter_tests {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -385,4 +385,4 @@ TEST(ForceLimiter, ASampleIsFreshUpToItsAge) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::force_limiter_tests

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::location_limiter_tests {
 namespace {
 
 constexpr PadLimits kPad{.reach = 0.008, .rate = 0.1};
@@ -112,4 +112,4 @@ TEST(LocationLimiter, ADeviceWithoutAPadGetsNone) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::location_limiter_tests

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace touchstone {
+namespace touchstone::passivity_tests {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -286,4 +286,4 @@ TEST(PassivityController, NoStormGetsItThroughTheLimits) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::passivity_tests

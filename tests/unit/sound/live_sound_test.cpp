@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::test {
+namespace touchstone::test::live_sound_test {
 namespace {
 
 constexpr double kRate = 48000.0, kTurn = 2.0 * std::numbers::pi;
@@ -198,4 +198,4 @@ TEST(LiveSound, NeitherTheServoNorTheCardAllocates) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::live_sound_test

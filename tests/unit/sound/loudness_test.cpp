@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::test {
+namespace touchstone::test::loudness_test {
 namespace {
 
 constexpr double kRate = 48000.0, kTurn = 2.0 * std::numbers::pi;
@@ -79,4 +79,4 @@ TEST(Loudness, AWhisperAfterATapIsHeardAgainWithinASecond) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::loudness_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::masking_noise_test {
 namespace {
 
 constexpr double kRate = 48000.0;
@@ -76,4 +76,4 @@ TEST(MaskingNoise, ACueIsATone) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::masking_noise_test

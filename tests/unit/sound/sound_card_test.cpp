@@ -16,7 +16,7 @@
 #include <memory>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::sound_card_test {
 namespace {
 
 class SoundCardTest : public testing::Test {
@@ -148,4 +148,4 @@ TEST_F(SoundCardTest, MayEndWhileItIsOpened) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sound_card_test

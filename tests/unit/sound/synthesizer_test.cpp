@@ -13,7 +13,7 @@
 #include <numbers>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::synthesizer_test {
 namespace {
 
 constexpr double kRate = 48000.0, kTurn = 2.0 * std::numbers::pi;
@@ -217,4 +217,4 @@ TEST(Synthesizer, AResetForgetsWhatWasFelt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::synthesizer_test

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::wav_file_test {
 namespace {
 
 TEST(WavFile, HoldsWhatWasWritten) {
@@ -69,4 +69,4 @@ TEST(WavFile, SaysWhatIsWrongWithAPlace) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::wav_file_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-namespace touchstone::study {
+namespace touchstone::study::ablation_test {
 namespace {
 
 bool isAblation(std::string_view name) {
@@ -123,4 +123,4 @@ TEST(Ablations, TakeAwayWhatNothingAsksFor) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::ablation_test

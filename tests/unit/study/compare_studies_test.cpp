@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone::study {
+namespace touchstone::study::compare_studies_test {
 namespace {
 
 StudyResult studyOf(std::vector<Estimate> steps) {
@@ -46,4 +46,4 @@ TEST(CompareStudies, MatchesRungsByWhatTheyAre) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::compare_studies_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace touchstone::study {
+namespace touchstone::study::errors_test {
 namespace {
 
 using truth::FeltTick;
@@ -107,4 +107,4 @@ TEST(Errors, CompareNothingWhereThereIsNoTruth) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::errors_test

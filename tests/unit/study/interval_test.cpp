@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone::study {
+namespace touchstone::study::interval_test {
 namespace {
 
 TEST(Interval, OfNothingAndOfOneValue) {
@@ -57,4 +57,4 @@ TEST(Interval, AreApartWithoutACommonValue) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::interval_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone::study {
+namespace touchstone::study::pareto_test {
 namespace {
 
 ConfigurationResult point(double ns, double error, const char* ablation = "combination",
@@ -52,4 +52,4 @@ TEST(Pareto, NeedsSomethingToCompare) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::pareto_test

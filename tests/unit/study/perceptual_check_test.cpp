@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::study {
+namespace touchstone::study::perceptual_check_test {
 namespace {
 
 PerceptualCheck checked(const assets::Shape& shape) {
@@ -75,4 +75,4 @@ TEST(PerceptualCheck, FewerTrianglesWouldDoWhereTheFacetsAreFine) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::perceptual_check_test

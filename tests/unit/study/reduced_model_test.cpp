@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace touchstone::study {
+namespace touchstone::study::reduced_model_test {
 namespace {
 
 TEST(ReducedModel, KeepsTheAngleAndMeasuresTheDistanceOfASphere) {
@@ -95,4 +95,4 @@ TEST(ReducedModel, APlaneHasNothingToLose) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::reduced_model_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-namespace touchstone::study {
+namespace touchstone::study::smooth_shape_test {
 namespace {
 
 using truth::LVec3;
@@ -214,4 +214,4 @@ TEST(OraclePath, SaysWhereItsWorkRanOut) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::smooth_shape_test

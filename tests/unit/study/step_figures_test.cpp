@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace touchstone::study {
+namespace touchstone::study::step_figures_test {
 namespace {
 
 constexpr std::array<double, kStageCount> kTrue{10.0, 120.0, 80.0, 0.0, 40.0, 5.0, 15.0, 30.0};
@@ -63,4 +63,4 @@ TEST(StepFigures, LeaveOutRoundsWithHardlyAnyContact) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::step_figures_test

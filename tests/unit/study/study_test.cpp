@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace touchstone::study {
+namespace touchstone::study::study_test {
 namespace {
 
 StudyOptions small() {
@@ -200,4 +200,4 @@ TEST(Study, SaysWhatCannotBeStudied) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::study_test

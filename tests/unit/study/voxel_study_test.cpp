@@ -11,7 +11,7 @@
 #include <map>
 #include <random>
 
-namespace touchstone::study {
+namespace touchstone::study::voxel_study_test {
 namespace {
 
 const VoxelShape& shapeNamed(const std::string& name) {
@@ -141,4 +141,4 @@ TEST(TricubicField, IsExactOnQuadraticsAndItsGradientIsItsOwn) {
 }
 
 } // namespace
-} // namespace touchstone::study
+} // namespace touchstone::study::voxel_study_test

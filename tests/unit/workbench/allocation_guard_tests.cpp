@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::allocation_guard_tests {
 namespace {
 
 /// What `work` allocates and frees within a tick. `keep` outlives the tick.
@@ -94,4 +94,4 @@ TEST(AllocationGuard, CountsNothingOutsideATickNorOnAnotherThread) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::allocation_guard_tests

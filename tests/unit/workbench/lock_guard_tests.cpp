@@ -8,7 +8,7 @@
 #include <mutex>
 #include <shared_mutex>
 
-namespace touchstone {
+namespace touchstone::lock_guard_tests {
 namespace {
 
 template <class Work>
@@ -52,4 +52,4 @@ TEST(LockGuard, LocksOutsideATickAreNobodysBusiness) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::lock_guard_tests

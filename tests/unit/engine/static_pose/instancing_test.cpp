@@ -3,7 +3,7 @@
 #include "engine/scene/animation.h"
 #include "tests/unit/engine/static_pose/pose_support.h"
 
-namespace touchstone {
+namespace touchstone::instancing_test {
 namespace {
 
 using namespace test;
@@ -156,4 +156,4 @@ TEST(Instancing, CopiesOfLittleDataAreBounded) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::instancing_test

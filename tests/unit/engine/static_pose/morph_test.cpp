@@ -1,7 +1,7 @@
 // Morph targets at their default weights, against the specification evaluated independently.
 #include "tests/unit/engine/static_pose/pose_support.h"
 
-namespace touchstone {
+namespace touchstone::morph_test {
 namespace {
 
 using namespace test;
@@ -219,4 +219,4 @@ TEST(Morph, ManyTargetsOfLittleDataAreBounded) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::morph_test

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace touchstone {
+namespace touchstone::playing_models_test {
 namespace {
 
 class PlayingModel : public testing::TestWithParam<const char*> {};
@@ -183,4 +183,4 @@ TEST(MeshDeformation, AnAnimationIsChosenByNameOrNumber) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::playing_models_test

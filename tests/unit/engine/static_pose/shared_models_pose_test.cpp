@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace touchstone {
+namespace touchstone::shared_models_pose_test {
 namespace {
 
 class SharedPose : public testing::TestWithParam<const char*> {};
@@ -36,4 +36,4 @@ INSTANTIATE_TEST_SUITE_P(Models, SharedPose,
                                          "gltf/SimpleMorph/SimpleMorph.gltf", "Suzanne.glb", "ToyCar.glb"));
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::shared_models_pose_test

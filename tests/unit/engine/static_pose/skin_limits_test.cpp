@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace touchstone {
+namespace touchstone::skin_limits_test {
 namespace {
 
 using namespace test;
@@ -181,4 +181,4 @@ TEST(SkinLimits, ManyPosesOfOneMeshAreBounded) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::skin_limits_test

@@ -2,7 +2,7 @@
 #include "engine/scene/animation.h"
 #include "tests/unit/engine/static_pose/pose_support.h"
 
-namespace touchstone {
+namespace touchstone::skin_test {
 namespace {
 
 using namespace test;
@@ -237,4 +237,4 @@ TEST(Skin, OfAnimatedJointsKeepsItsPoseWithOneWarning) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::skin_test
