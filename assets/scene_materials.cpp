@@ -11,8 +11,8 @@ namespace touchstone::assets {
 
 namespace {
 
-constexpr int kColumns = 6;
-constexpr double kPitch = 0.030, kRadius = 0.012; // m
+constexpr int kBallsAcross = 6;
+constexpr double kPitch = 0.030, kBallRadius = 0.012; // m
 
 Json colored(const char* name, double red, double green, double blue, double metallic, double roughness) {
     return {{"name", name},
@@ -39,9 +39,10 @@ Json glass(const char* name, double red, double green, double blue, double rough
 
 /// Clear glass whose colour comes from absorption.
 Json tinted(const char* name, const Json& color) {
-    return with(
-        glass(name, 1.0, 1.0, 1.0, 0.0), "KHR_materials_volume",
-        {{"thicknessFactor", 2.0 * kRadius}, {"attenuationDistance", kRadius}, {"attenuationColor", color}});
+    return with(glass(name, 1.0, 1.0, 1.0, 0.0), "KHR_materials_volume",
+                {{"thicknessFactor", 2.0 * kBallRadius},
+                 {"attenuationDistance", kBallRadius},
+                 {"attenuationColor", color}});
 }
 
 Json varnished(Json material) {
@@ -66,8 +67,8 @@ std::vector<Json> spheres() {
     for (const auto& [name, red, green, blue, metallic] : {std::tuple{"white plastic", 1.0, 1.0, 1.0, 0.0},
                                                            {"white metal", 1.0, 1.0, 1.0, 1.0},
                                                            {"gold", 1.0, 0.72, 0.32, 1.0}})
-        for (int i = 0; i < kColumns; ++i)
-            all.push_back(colored(name, red, green, blue, metallic, i / (kColumns - 1.0)));
+        for (int i = 0; i < kBallsAcross; ++i)
+            all.push_back(colored(name, red, green, blue, metallic, i / (kBallsAcross - 1.0)));
     all.push_back(glass("clear glass", 1.0, 1.0, 1.0, 0.0));
     all.push_back(glass("red glass", 0.9, 0.12, 0.08, 0.0));
     all.push_back(glass("green glass", 0.15, 0.75, 0.25, 0.0));
@@ -99,8 +100,9 @@ Strokes helix() {
     Strokes strokes;
     for (int i = 0; i <= 120; ++i) {
         const double t = i / 120.0, turn = 10.0 * std::numbers::pi * t;
-        strokes.add({kRadius * std::cos(turn), kRadius * (2.0 * t - 1.0), kRadius * std::sin(turn)},
-                    {1.0 - t, 0.2 + 0.6 * t, t});
+        strokes.add(
+            {kBallRadius * std::cos(turn), kBallRadius * (2.0 * t - 1.0), kBallRadius * std::sin(turn)},
+            {1.0 - t, 0.2 + 0.6 * t, t});
     }
     return strokes;
 }
@@ -108,7 +110,7 @@ Strokes helix() {
 /// The twelve edges of a cube, as segments.
 Strokes cube() {
     Strokes strokes;
-    const double h = 0.8 * kRadius;
+    const double h = 0.8 * kBallRadius;
     for (int axis = 0; axis < 3; ++axis)
         for (int corner = 0; corner < 4; ++corner)
             for (const double end : {-h, h}) {
@@ -128,7 +130,7 @@ Strokes cloud() {
         const double y = 1.0 - 2.0 * (i + 0.5) / 200.0, across = std::sqrt(1.0 - y * y);
         const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;
         const glm::dvec3 n(across * std::cos(turn), y, across * std::sin(turn));
-        strokes.add(kRadius * n, 0.5 + 0.5 * n);
+        strokes.add(kBallRadius * n, 0.5 + 0.5 * n);
     }
     return strokes;
 }
@@ -139,16 +141,17 @@ SceneFile materials() {
     GlbWriter glb("materials");
     glb.describe("every look that Touchstone draws, on spheres, lines and points");
     const std::vector<Json> looks = spheres();
-    const int rows = static_cast<int>(looks.size() + 3) / kColumns;
+    const int rows = static_cast<int>(looks.size() + 3) / kBallsAcross;
     const auto at = [&](size_t i) {
-        const int column = static_cast<int>(i) % kColumns, row = static_cast<int>(i) / kColumns;
-        return glm::dvec3(kPitch * (column - 0.5 * (kColumns - 1)), kPitch * (0.5 * (rows - 1) - row), 0.0);
+        const int column = static_cast<int>(i) % kBallsAcross, row = static_cast<int>(i) / kBallsAcross;
+        return glm::dvec3(kPitch * (column - 0.5 * (kBallsAcross - 1)), kPitch * (0.5 * (rows - 1) - row),
+                          0.0);
     };
     int ball = -1;
     for (size_t i = 0; i < looks.size(); ++i) {
         const std::string name = looks[i]["name"];
         const int material = glb.addMaterial(looks[i]);
-        ball = ball < 0 ? glb.addMesh(name, sphere(kRadius, 24, 48), material)
+        ball = ball < 0 ? glb.addMesh(name, sphere(kBallRadius, 24, 48), material)
                         : glb.addMeshLike(name, ball, material);
         glb.addNode(name, ball, at(i));
     }
@@ -159,7 +162,7 @@ SceneFile materials() {
     draw("line strip", 3, helix(), looks.size());
     draw("line segments", 1, cube(), looks.size() + 1);
     draw("points", 0, cloud(), looks.size() + 2);
-    const glm::dvec3 sides(kPitch * kColumns + 0.01, kPitch * rows + 0.01, 0.004);
+    const glm::dvec3 sides(kPitch * kBallsAcross + 0.01, kPitch * rows + 0.01, 0.004);
     glb.addNode("plate",
                 glb.addMesh("plate", box(sides), glb.addMaterial(colored("plate", 0.6, 0.6, 0.58, 0.0, 0.8))),
                 {0.0, 0.0, -0.018});

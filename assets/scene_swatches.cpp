@@ -13,9 +13,9 @@ namespace touchstone::assets {
 
 namespace {
 
-constexpr size_t kColumns = 5, kRows = 2;
-constexpr double kTile = 0.040, kGap = 0.004, kThickness = 0.012; // m
-constexpr int kMapSize = 256;                                     // 0.16 mm a texel
+constexpr size_t kTilesAcross = 5, kTilesDown = 2;
+constexpr double kTileSide = 0.040, kTileGap = 0.004, kThickness = 0.012; // m
+constexpr int kTileTexels = 256;                                          // 0.16 mm a texel
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 constexpr double kBumpHeight = 0.0006, kRibHeight = 0.0004, kTallRibHeight = 0.001,
@@ -55,7 +55,7 @@ struct Swatch {
     double factorMin = 0.0, factorMax = 0.0;
 };
 
-std::array<Swatch, kColumns * kRows> palette() {
+std::array<Swatch, kTilesAcross * kTilesDown> palette() {
     return {{
         {.name = "SLIPPERY",
          .colour = {150, 205, 225},
@@ -115,13 +115,13 @@ int addSwatchMaterial(GlbWriter& glb, const Swatch& swatch) {
           {"roughnessFactor", 0.6}}}};
     Json haptic = swatch.haptic;
     if (swatch.bump) {
-        const int normals = glb.addTexture(name + ", normals",
-                                           png(normalMap(swatch.bump, kMapSize, kTile, swatch.reliefHeight)));
+        const int normals = glb.addTexture(
+            name + ", normals", png(normalMap(swatch.bump, kTileTexels, kTileSide, swatch.reliefHeight)));
         material["normalTexture"] = {{"index", normals}};
     }
     if (swatch.reliefAsHeight)
         haptic["heightTexture"] = {
-            {"index", glb.addTexture(name + ", heights", png(heightMap(swatch.bump, kMapSize)))},
+            {"index", glb.addTexture(name + ", heights", png(heightMap(swatch.bump, kTileTexels)))},
             {"scale", swatch.reliefHeight},
             {"midLevel", 0.0}};
     if (swatch.factorMap != nullptr)
@@ -137,10 +137,10 @@ int addSwatchMaterial(GlbWriter& glb, const Swatch& swatch) {
 std::vector<double> cuts(size_t tiles) {
     std::vector<double> result;
     const auto count = static_cast<double>(tiles);
-    const double start = -0.5 * (count * kTile + (count + 1.0) * kGap);
+    const double start = -0.5 * (count * kTileSide + (count + 1.0) * kTileGap);
     for (double i = 0.0; i <= count; i += 1.0) {
-        result.push_back(start + i * (kTile + kGap));
-        result.push_back(start + i * (kTile + kGap) + kGap);
+        result.push_back(start + i * (kTileSide + kTileGap));
+        result.push_back(start + i * (kTileSide + kTileGap) + kTileGap);
     }
     return result;
 }
@@ -188,7 +188,7 @@ constexpr uint32_t kRidgeFacets = 4;
 
 /// Runs along y, as wide as a tile. A closed prism about the origin: the label's UVs on the facets.
 Shape ridge() {
-    constexpr double kHalf = 0.5 * kTile;
+    constexpr double kHalf = 0.5 * kTileSide;
     constexpr double kRadius = (kHalf * kHalf + kRidgeHeight * kRidgeHeight) / (2.0 * kRidgeHeight);
     const double halfAngle = std::asin(kHalf / kRadius);
     std::vector<glm::dvec2> outline; // x, z, clockwise seen from -y
@@ -206,7 +206,7 @@ Shape ridge() {
     const auto vertex = [&](const glm::dvec2& at, double y, const glm::dvec3& normal) {
         shape.positions.emplace_back(at.x, y, at.y);
         shape.normals.emplace_back(normal);
-        shape.uv.emplace_back(at.x / kTile + 0.5, 0.5 - y / kTile);
+        shape.uv.emplace_back(at.x / kTileSide + 0.5, 0.5 - y / kTileSide);
         return static_cast<uint32_t>(shape.positions.size() - 1);
     };
     const size_t corners = outline.size();
@@ -240,7 +240,7 @@ Shape ridge() {
 SceneFile swatches() {
     GlbWriter glb("swatches");
     glb.describe("ten materials side by side");
-    glb.addNode("swatches", glb.addMesh("swatches", board(glb, kColumns, palette())));
+    glb.addNode("swatches", glb.addMesh("swatches", board(glb, kTilesAcross, palette())));
     return {"swatches.glb", glb.finish()};
 }
 
@@ -263,7 +263,7 @@ SceneFile effects() {
     const auto parts = board(glb, tiles.size(), tiles);
     glb.addNode("board", glb.addMesh("board", parts));
     glb.addNode("ridge", glb.addMesh("ridge", ridge(), parts[1].second),
-                {-(kTile + kGap), 0.0, 0.5 * kThickness + kRidgeMiddle});
+                {-(kTileSide + kTileGap), 0.0, 0.5 * kThickness + kRidgeMiddle});
     return {"effects.glb", glb.finish()};
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// What the elementwise operations do with one instruction.
 template <class Registers>
-struct Step {
+struct Executed {
     using Real = typename Registers::Real;
     Registers& r;
     const Instruction& at;
@@ -86,7 +86,7 @@ struct Step {
 template <class Registers>
 [[gnu::always_inline]] inline Ending perform(Registers& r, const Instruction& at) {
     using R = typename Registers::Real;
-    Step<Registers> step{r, at};
+    Executed<Registers> step{r, at};
     const auto divided = [](bool done) { return done ? Ending::Finished : Ending::DivisionByZero; };
     switch (at.operation) {
         using enum Operation;

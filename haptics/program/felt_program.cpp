@@ -3,6 +3,7 @@
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
+#include "haptics/program/interface_locations.h"
 #include "haptics/program/load_program.h"
 #include "haptics/program/translator.h"
 
@@ -14,9 +15,6 @@
 namespace touchstone::program {
 
 namespace {
-
-constexpr size_t kPosition = 0, kTangent = 2, kBinormal = 3, kUv = 4, kPersistent = 12,
-                 kOutPersistent = 5; // locations of interface.glsl
 
 const Port* portAt(const std::vector<Port>& ports, size_t location) {
     const auto found = std::ranges::find(ports, location, &Port::location);
@@ -46,7 +44,7 @@ bool follow(const RegisterProgram& program, std::vector<int>& holds) {
 
 /// False where nothing but the position that it gets is ever written into the output.
 bool writesPosition(const RegisterProgram& program) {
-    const Port* out = portAt(program.outputs, kPosition);
+    const Port* out = portAt(program.outputs, kOutPosition);
     const Port* in = portAt(program.inputs, kPosition);
     const bool indexed = std::ranges::any_of(program.instructions, [](const Instruction& at) {
         return at.operation == Operation::StoreAt; // into a place that is not known here
@@ -94,7 +92,7 @@ FeltProgram feltProgram(const MaterialProgram& material, const FeltProgram* befo
         parameters[i].value = material.values[i];
     setParameters(felt.code, parameters);
     felt.displaces = writesPosition(felt.code);
-    for (const size_t location : {kTangent, kBinormal, kUv})
+    for (const InputLocation location : {kTangent, kBinormal, kUv})
         felt.usesCoordinates |= felt.code.reads(location);
     if (felt.code.reads(kPersistent) || portAt(felt.code.outputs, kOutPersistent) != nullptr)
         felt.texture = material.texture;

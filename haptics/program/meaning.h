@@ -18,6 +18,13 @@ namespace touchstone::program {
 constexpr const char* kDamagedModule = "is a damaged SPIR-V module";
 constexpr const char* kCompileAgain = "compile the source again";
 
+using Kind = SpirvType::Kind;
+
+/// A register's number or a count, which instructions hold in 16 bits.
+[[nodiscard]] constexpr uint16_t at16(size_t i) {
+    return static_cast<uint16_t>(i);
+}
+
 /// A value in registers.
 struct Value {
     uint32_t type = 0;
@@ -57,8 +64,7 @@ class Meaning {
         return value(at.operand(i));
     }
     /// Operand i, of kind `kind` and with so many registers.
-    [[nodiscard]] uint16_t operand(const SpirvInstruction& at, size_t i, SpirvType::Kind kind,
-                                   size_t count) const;
+    [[nodiscard]] uint16_t operand(const SpirvInstruction& at, size_t i, Kind kind, size_t count) const;
     /// Registers of the result, whose scalar kind is `kind`.
     [[nodiscard]] uint32_t resultSize(const SpirvInstruction& at, SpirvType::Kind kind) const;
     [[nodiscard]] bool isKind(uint32_t type, SpirvType::Kind kind) const;

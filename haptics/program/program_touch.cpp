@@ -1,5 +1,7 @@
 #include "haptics/program/program_touch.h"
 
+#include "haptics/program/interface_locations.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,24 +9,6 @@
 namespace touchstone::program {
 
 namespace {
-
-// Locations of shaders/material/interface.glsl.
-enum InputLocation : size_t {
-    kPosition,
-    kNormal,
-    kTangent,
-    kBinormal,
-    kUv,
-    kToolDirection,
-    kToolVelocity,
-    kToolAcceleration,
-    kForce,
-    kMaterial,
-    kTick,
-    kLook,
-    kPersistent
-};
-enum OutputLocation : size_t { kOutPosition, kOutNormal, kOutForce, kOutMaterial, kOutLook, kOutPersistent };
 
 using Ports = std::array<PortValue, kMaxLocations>;
 

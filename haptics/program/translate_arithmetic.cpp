@@ -10,7 +10,6 @@ namespace touchstone::program {
 
 namespace {
 
-using Kind = SpirvType::Kind;
 constexpr Kind kF = Kind::Float, kI = Kind::Int, kB = Kind::Bool;
 
 /// An elementwise instruction: all operands have as many components as the result.

@@ -11,13 +11,8 @@ namespace touchstone::program {
 
 namespace {
 
-using Kind = SpirvType::Kind;
 using enum Operation;
-constexpr Kind kF = Kind::Float;
-
-uint16_t at16(size_t i) {
-    return static_cast<uint16_t>(i);
-}
+constexpr Kind kReal = Kind::Float;
 
 /// A float matrix: columns of `rows` components, one after the other.
 struct Matrix {
@@ -78,8 +73,8 @@ void multiplyMatrices(Meaning& t, const SpirvInstruction& at) {
 void matrixWithVector(Meaning& t, const SpirvInstruction& at) {
     const bool vectorFirst = at.code == spv::OpVectorTimesMatrix;
     const Matrix m = matrixOf(t, at, vectorFirst ? 1 : 0);
-    const uint16_t v = t.operand(at, vectorFirst ? 0 : 1, kF, vectorFirst ? m.rows : m.columns);
-    const uint32_t size = t.resultSize(at, kF);
+    const uint16_t v = t.operand(at, vectorFirst ? 0 : 1, kReal, vectorFirst ? m.rows : m.columns);
+    const uint32_t size = t.resultSize(at, kReal);
     if (size != (vectorFirst ? m.columns : m.rows))
         refuseDamaged("a result has a wrong type");
     const uint16_t to = t.build.allocate(size);
@@ -92,7 +87,7 @@ void matrixWithVector(Meaning& t, const SpirvInstruction& at) {
 
 void outerProduct(Meaning& t, const SpirvInstruction& at) {
     const Matrix shape = matrixOf(t, at.type, 0);
-    const uint16_t column = t.operand(at, 0, kF, shape.rows), row = t.operand(at, 1, kF, shape.columns);
+    const uint16_t column = t.operand(at, 0, kReal, shape.rows), row = t.operand(at, 1, kReal, shape.columns);
     const uint16_t to = t.build.allocate(size_t{shape.columns} * shape.rows);
     for (size_t c = 0; c < shape.columns; ++c)
         t.build.emit({Scale, at16(shape.rows), at16(to + c * shape.rows), column, at16(row + c)});
@@ -151,8 +146,8 @@ uint16_t lengthOf(Meaning& t, uint16_t x, size_t size) {
 }
 
 void cross(Meaning& t, const SpirvInstruction& at) {
-    const uint16_t a = t.operand(at, 2, kF, 3), b = t.operand(at, 3, kF, 3);
-    if (t.resultSize(at, kF) != 3)
+    const uint16_t a = t.operand(at, 2, kReal, 3), b = t.operand(at, 3, kReal, 3);
+    if (t.resultSize(at, kReal) != 3)
         refuseDamaged("a result has a wrong type");
     const uint16_t to = t.build.allocate(3);
     for (size_t i = 0; i < 3; ++i) {
@@ -166,8 +161,8 @@ void cross(Meaning& t, const SpirvInstruction& at) {
 
 /// I - 2 (N . I) N
 void reflect(Meaning& t, const SpirvInstruction& at) {
-    const uint32_t size = t.resultSize(at, kF);
-    const uint16_t i = t.operand(at, 2, kF, size), n = t.operand(at, 3, kF, size);
+    const uint32_t size = t.resultSize(at, kReal);
+    const uint16_t i = t.operand(at, 2, kReal, size), n = t.operand(at, 3, kReal, size);
     const uint16_t dot = t.build.result(Dot, size, n, i, 0, 1);
     const uint16_t twice = t.build.result(FAdd, 1, dot, dot);
     t.define(at, t.build.result(FSub, size, i, t.build.result(Scale, size, n, twice)));
@@ -175,9 +170,9 @@ void reflect(Meaning& t, const SpirvInstruction& at) {
 
 /// eta I - (eta (N . I) + sqrt(k)) N with k = 1 - eta^2 (1 - (N . I)^2); 0 where k < 0.
 void refract(Meaning& t, const SpirvInstruction& at) {
-    const uint32_t size = t.resultSize(at, kF);
-    const uint16_t i = t.operand(at, 2, kF, size), n = t.operand(at, 3, kF, size),
-                   eta = t.operand(at, 4, kF, 1), one = t.number(1.0f);
+    const uint32_t size = t.resultSize(at, kReal);
+    const uint16_t i = t.operand(at, 2, kReal, size), n = t.operand(at, 3, kReal, size),
+                   eta = t.operand(at, 4, kReal, 1), one = t.number(1.0f);
     const uint16_t dot = t.build.result(Dot, size, n, i, 0, 1);
     const uint16_t sine2 = t.build.result(FSub, 1, one, t.build.result(FMul, 1, dot, dot));
     const uint16_t bent = t.build.result(FMul, 1, t.build.result(FMul, 1, eta, eta), sine2);
@@ -193,9 +188,9 @@ void refract(Meaning& t, const SpirvInstruction& at) {
 
 /// N where Nref . I < 0, else -N
 void faceForward(Meaning& t, const SpirvInstruction& at) {
-    const uint32_t size = t.resultSize(at, kF);
-    const uint16_t n = t.operand(at, 2, kF, size), i = t.operand(at, 3, kF, size),
-                   reference = t.operand(at, 4, kF, size);
+    const uint32_t size = t.resultSize(at, kReal);
+    const uint16_t n = t.operand(at, 2, kReal, size), i = t.operand(at, 3, kReal, size),
+                   reference = t.operand(at, 4, kReal, size);
     const uint16_t dot = t.build.result(Dot, size, reference, i, 0, 1);
     const uint16_t against = t.build.result(FOrdLess, 1, dot, t.number(0.0f));
     t.define(at, t.build.result(SelectAll, size, against, n, t.build.result(FNegate, size, n)));
@@ -204,29 +199,29 @@ void faceForward(Meaning& t, const SpirvInstruction& at) {
 bool geometric(Meaning& t, const SpirvInstruction& at) {
     const auto vector = [&](size_t operand) -> const Value& {
         const Value& v = t.operand(at, operand);
-        if (!t.isKind(v.type, kF) || t.size(v) > 4)
+        if (!t.isKind(v.type, kReal) || t.size(v) > 4)
             refuseDamaged("an operand has a wrong type");
         return v;
     };
     switch (at.operand(1)) {
     case GLSLstd450Length: {
         const Value& x = vector(2);
-        if (t.resultSize(at, kF) != 1)
+        if (t.resultSize(at, kReal) != 1)
             refuseDamaged("a result has a wrong type");
         t.define(at, lengthOf(t, x.first, t.size(x)));
         return true;
     }
     case GLSLstd450Distance: {
         const Value& x = vector(2);
-        if (t.resultSize(at, kF) != 1)
+        if (t.resultSize(at, kReal) != 1)
             refuseDamaged("a result has a wrong type");
         const uint32_t size = t.size(x);
-        t.define(at, lengthOf(t, t.build.result(FSub, size, x.first, t.operand(at, 3, kF, size)), size));
+        t.define(at, lengthOf(t, t.build.result(FSub, size, x.first, t.operand(at, 3, kReal, size)), size));
         return true;
     }
     case GLSLstd450Normalize: {
-        const uint32_t size = t.resultSize(at, kF);
-        const uint16_t x = t.operand(at, 2, kF, size);
+        const uint32_t size = t.resultSize(at, kReal);
+        const uint16_t x = t.operand(at, 2, kReal, size);
         const uint16_t inverse = t.build.result(FDiv, 1, t.number(1.0f), lengthOf(t, x, size));
         t.define(at, t.build.result(Scale, size, x, inverse));
         return true;
@@ -245,7 +240,7 @@ bool geometric(Meaning& t, const SpirvInstruction& at) {
         return true;
     case GLSLstd450Determinant: {
         const Matrix m = squareOf(t, at);
-        if (t.resultSize(at, kF) != 1)
+        if (t.resultSize(at, kReal) != 1)
             refuseDamaged("a result has a wrong type");
         const unsigned all = (1u << m.rows) - 1u;
         t.define(at, minorOf(t, m, all, all));
@@ -267,8 +262,8 @@ bool translateMatrix(Meaning& t, const SpirvInstruction& at) {
         return geometric(t, at);
     case spv::OpVectorTimesScalar:
     case spv::OpMatrixTimesScalar: {
-        const uint32_t size = t.resultSize(at, kF);
-        t.define(at, t.build.result(Scale, size, t.operand(at, 0, kF, size), t.operand(at, 1, kF, 1)));
+        const uint32_t size = t.resultSize(at, kReal);
+        t.define(at, t.build.result(Scale, size, t.operand(at, 0, kReal, size), t.operand(at, 1, kReal, 1)));
         return true;
     }
     case spv::OpMatrixTimesVector:
@@ -290,10 +285,10 @@ bool translateMatrix(Meaning& t, const SpirvInstruction& at) {
     }
     case spv::OpDot: {
         const Value& a = t.operand(at, 0);
-        if (!t.isKind(a.type, kF) || t.resultSize(at, kF) != 1)
+        if (!t.isKind(a.type, kReal) || t.resultSize(at, kReal) != 1)
             refuseDamaged("an operand has a wrong type");
         const uint32_t size = t.size(a);
-        t.define(at, t.build.result(Dot, size, a.first, t.operand(at, 1, kF, size), 0, 1));
+        t.define(at, t.build.result(Dot, size, a.first, t.operand(at, 1, kReal, size), 0, 1));
         return true;
     }
     default:

@@ -10,12 +10,6 @@ namespace touchstone::program {
 
 namespace {
 
-using Kind = SpirvType::Kind;
-
-uint16_t at16(size_t i) {
-    return static_cast<uint16_t>(i);
-}
-
 /// The part of a value of `type` that the literal indices from operand `i` on name: its type, and its first
 /// register added to `first`.
 Value partAt(const Meaning& t, const SpirvInstruction& at, size_t i, uint32_t type, uint16_t first) {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::field_faces_test {
 namespace {
 
 constexpr int kFine = 96;
@@ -102,4 +102,4 @@ TEST(FieldFaces, AreTheSameBlockByBlock) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_faces_test

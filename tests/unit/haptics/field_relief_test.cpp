@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::field_relief_test {
 namespace {
 
 /// Mean, deviation and the shares of one and two deviations of the normal distribution, and no correlation
@@ -186,4 +186,4 @@ TEST(FieldRelief, WarnsOfWavesTooShortForTheGridAndOfHeightsTooLargeForTheObject
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_relief_test

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::local_deformation_test {
 namespace {
 
 constexpr double kContact = 800.0, kGround = 400.0; // N/m
@@ -252,4 +252,4 @@ TEST(LocalDeformation, TheJellyDoughnutGivesWayMonotonicallyAndComesBack) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::local_deformation_test

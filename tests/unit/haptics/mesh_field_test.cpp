@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::mesh_field_test {
 namespace {
 
 using Place = glm::vec<3, long double>;
@@ -182,4 +182,4 @@ TEST(MeshField, IsTheSameToTheBitEachTime) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::mesh_field_test

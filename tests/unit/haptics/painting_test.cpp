@@ -16,7 +16,7 @@
 #include <map>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::painting_test {
 namespace {
 
 constexpr int kCells = 48;
@@ -293,4 +293,4 @@ TEST(Painting, AJournalStatesTheColour) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::painting_test

@@ -16,7 +16,7 @@
 #include <random>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::persistent_texture_test {
 namespace {
 
 using nlohmann::json;
@@ -537,4 +537,4 @@ TEST(SavedTexture, TouchBeginsWithTheValuesOfTheFileAndASavedSessionGoesOn) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::persistent_texture_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::program_effect_test {
 namespace {
 
 using nlohmann::json;
@@ -304,4 +304,4 @@ TEST(ProgramEffect, AnEditOfAValueChangesTheSceneAndItsIdentity) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::program_effect_test

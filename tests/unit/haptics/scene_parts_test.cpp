@@ -18,7 +18,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::scene_parts_test {
 namespace {
 
 /// A bench that touches a part of its scene.
@@ -429,4 +429,4 @@ TEST(SceneParts, ACutFieldIsSculptedAndStaysCut) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::scene_parts_test

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::sculpt_halves_test {
 namespace {
 
 /// A ball that is taken out or joined, in two halves: the second gives the bytes of the whole dab; after the
@@ -148,4 +148,4 @@ TEST(SculptHalves, ShapesMayBeLeftToAnyOtherChange) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sculpt_halves_test

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::sculpt_preview_test {
 namespace {
 
 const Dab kFirst{.tool = SculptTool::Add, .centre = {0.39, 0.05, -0.1}, .radius = 0.11};
@@ -223,4 +223,4 @@ TEST(SculptPreview, MayComeBetweenAllOtherChanges) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sculpt_preview_test

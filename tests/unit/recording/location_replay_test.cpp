@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace touchstone::test {
+namespace touchstone::test::location_replay_test {
 namespace {
 
 /// Two hands over the doughnut, both turning; one has a display, which comes and goes and changes its limits.
@@ -177,4 +177,4 @@ TEST(RecordedLocationsFormat, WhatCannotBeIsRefused) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::location_replay_test

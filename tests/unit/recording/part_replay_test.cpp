@@ -11,7 +11,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::part_replay_test {
 namespace {
 
 /// Floors of 0.1 m around these places: node k and object k are the floor at the k-th.
@@ -315,4 +315,4 @@ TEST(PartReplay, APartThatWasNeverFeltIsNotMissed) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::part_replay_test

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::test {
+namespace touchstone::test::part_worlds_replay_test {
 namespace {
 
 TouchedScene compiled(ScenePtr source) {
@@ -320,4 +320,4 @@ TEST(PartWorldsReplay, AHiddenObjectKeepsItsTexture) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::part_worlds_replay_test

@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::program_reload_test {
 namespace {
 
 std::shared_ptr<const SurfaceProgram> reloaded(const std::string& body) {
@@ -112,4 +112,4 @@ TEST(ProgramReload, AThousandReloadsKeepTheTouchAndLeaveNothingBehind) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::program_reload_test

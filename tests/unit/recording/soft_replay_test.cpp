@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::soft_replay_test {
 namespace {
 
 class SoftReplay : public testing::Test {
@@ -71,4 +71,4 @@ TEST_F(SoftReplay, EditsOfAMaterialLeaveThemWhereTheyAre) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::soft_replay_test

@@ -15,7 +15,7 @@
 #include <memory>
 #include <variant>
 
-namespace touchstone::test {
+namespace touchstone::test::texture_replay_test {
 namespace {
 
 /// A square of 0.1 m under plaque, facing +z.
@@ -150,4 +150,4 @@ TEST_F(TextureReplay, BrushingALargeTextureTakesLessThanAMegabyteASecond) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::texture_replay_test

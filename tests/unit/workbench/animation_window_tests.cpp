@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::animation_window_tests {
 namespace {
 
 const std::string kBreathing = TOUCHSTONE_ASSETS "/breathing.glb";
@@ -79,4 +79,4 @@ TEST_F(AnimationWindowTest, AnotherOneIsChosenFromTheList) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::animation_window_tests

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace touchstone::test {
+namespace touchstone::test::command_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -753,4 +753,4 @@ TEST(Devices, ListsWhatIsBuiltIn) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::command_tests

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace touchstone::test {
+namespace touchstone::test::dialog_window_tests {
 namespace {
 
 class DialogWindow : public WindowTest {
@@ -128,4 +128,4 @@ TEST_F(DialogWindow, TheDesktopsDialogIsAskedAndMayHang) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::dialog_window_tests

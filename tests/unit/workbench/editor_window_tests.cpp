@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace touchstone::test {
+namespace touchstone::test::editor_window_tests {
 namespace {
 
 class EditorWindow : public WindowTest {
@@ -82,4 +82,4 @@ TEST_F(EditorWindow, SavingUnderAnothersNameAsksFirst) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::editor_window_tests

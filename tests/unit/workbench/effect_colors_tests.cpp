@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone {
+namespace touchstone::effect_colors_tests {
 namespace {
 
 EffectPlan planOf(std::initializer_list<std::pair<int, Effect>> on) {
@@ -38,4 +38,4 @@ TEST(EffectColors, GreyIsForNoEffectAlone) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::effect_colors_tests

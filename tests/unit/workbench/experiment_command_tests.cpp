@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::experiment_command_tests {
 namespace {
 
 ProgramResult experiment(std::vector<std::string> arguments) {
@@ -75,4 +75,4 @@ TEST(ExperimentCommand, TakesOneModeAtATime) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::experiment_command_tests

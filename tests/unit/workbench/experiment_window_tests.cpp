@@ -21,7 +21,7 @@
 #include <thread>
 #include <utility>
 
-namespace touchstone::test {
+namespace touchstone::test::experiment_window_tests {
 namespace {
 
 using experiment::PersonSession;
@@ -348,4 +348,4 @@ TEST_F(ExperimentWindowTest, RefusesASessionOfAnotherStudyAndKeepsIt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::experiment_window_tests

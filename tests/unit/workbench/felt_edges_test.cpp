@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::felt_edges_test {
 namespace {
 
 TEST(FeltEdges, TheViewHasTheAnglesOfTheStudy) {
@@ -55,4 +55,4 @@ TEST(FeltEdges, ThePictureAgreesWithTheCounts) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::felt_edges_test

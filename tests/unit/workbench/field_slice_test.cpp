@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::field_slice_test {
 namespace {
 
 constexpr double kScale = 0.15, kRadius = 0.4 * kScale; // m
@@ -81,4 +81,4 @@ TEST(FieldSlice, IsDrawnAnewWhereTheFieldDiffers) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::field_slice_test

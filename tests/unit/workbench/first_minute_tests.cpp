@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::first_minute_tests {
 namespace {
 
 using Place = VirtualDisplay::Place;
@@ -266,4 +266,4 @@ TEST_F(FirstMinute, OpensTouchesChangesSavesReopensRecordsAndReplays) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::first_minute_tests

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::gallery_window_tests {
 namespace {
 
 class GalleryWindow : public WindowTest {
@@ -156,4 +156,4 @@ TEST_F(GalleryWindow, ShowsPicturesOpensThemTellsWhatIsBrokenAndForgetsWhatIsGon
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::gallery_window_tests

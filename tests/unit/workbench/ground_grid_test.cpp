@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace touchstone::test {
+namespace touchstone::test::ground_grid_test {
 namespace {
 
 /// Failed: the near end of a long thin model's grid lay before the near plane.
@@ -45,4 +45,4 @@ TEST(GroundGrid, LiesBetweenTheCamerasPlanesFromEverySide) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::ground_grid_test

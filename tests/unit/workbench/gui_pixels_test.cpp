@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace touchstone {
+namespace touchstone::gui_pixels_test {
 namespace {
 
 PixelData grey(int width, int height, int value) {
@@ -93,4 +93,4 @@ TEST(GuiPixels, LeavesTheCurrentContextInItsFrame) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::gui_pixels_test

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::hand_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -64,4 +64,4 @@ TEST_F(WindowTest, TheClutchHoldsTheHandAndZoomGoesAboutIt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::hand_window_tests

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-namespace touchstone::test {
+namespace touchstone::test::hostile_programs_tests {
 namespace {
 
 struct Hostile {
@@ -125,4 +125,4 @@ TEST_F(HostileProgram, LeavesTheWindowAliveAndTheForceWithinItsLimits) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::hostile_programs_tests

@@ -12,7 +12,7 @@
 #include <map>
 #include <sstream>
 
-namespace touchstone::test {
+namespace touchstone::test::keys_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -304,4 +304,4 @@ TEST_F(KeysTest, NoTapIsLostHoweverManyComeInAFrame) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::keys_window_tests

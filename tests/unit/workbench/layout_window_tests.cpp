@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::layout_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -329,4 +329,4 @@ TEST_F(LayoutTest, StripsAreChosenMadeTallerAndKept) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::layout_window_tests

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::test {
+namespace touchstone::test::moving_scene_tests {
 namespace {
 
 const std::string kProgram = TOUCHSTONE_BINARY;
@@ -174,4 +174,4 @@ TEST_F(MovingScene, AnAnimationThatIsNotThereIsRefusedWithThoseThatAre) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::moving_scene_tests

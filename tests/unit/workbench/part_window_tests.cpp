@@ -12,7 +12,7 @@
 #include <fstream>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::part_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -211,4 +211,4 @@ TEST_F(PartWindowTest, TheCommandLineHidesAndAWrongNameIsTold) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::part_window_tests

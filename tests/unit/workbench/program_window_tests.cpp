@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace touchstone::test {
+namespace touchstone::test::program_window_tests {
 namespace {
 
 TEST_F(ProgramWindow, AFileThatIsSavedIsFeltAndSeenWhileTouchGoesOn) {
@@ -124,4 +124,4 @@ TEST_F(ProgramWindow, CoverageIsSaidInPercentAndWhatIsWornOffIsSaved) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::program_window_tests

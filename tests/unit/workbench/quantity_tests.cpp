@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace touchstone::test {
+namespace touchstone::test::quantity_tests {
 namespace {
 
 TEST(Quantity, HasThousandsAndNoExponent) {
@@ -48,4 +48,4 @@ TEST(Quantity, OfWhatIsNoNumberOrAbsurdIsShort) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::quantity_tests

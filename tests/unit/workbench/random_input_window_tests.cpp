@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::random_input_window_tests {
 namespace {
 
 class RandomInput : public WindowTest {
@@ -219,4 +219,4 @@ TEST_F(RandomInput, LeavesTheWindowAliveAndTheForceInHand) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::random_input_window_tests

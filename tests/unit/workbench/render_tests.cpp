@@ -16,7 +16,7 @@
 #include <set>
 #include <utility>
 
-namespace touchstone::test {
+namespace touchstone::test::render_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -382,4 +382,4 @@ TEST_F(Render, AFailedPictureLeavesNothing) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::render_tests

@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace touchstone::test {
+namespace touchstone::test::replay_tests {
 namespace {
 
 const std::string kProgram = TOUCHSTONE_BINARY;
@@ -335,4 +335,4 @@ TEST_F(Replay, TouchSaysWhereItCannotRecord) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::replay_tests

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::run_tests {
 namespace {
 
 const std::string kProgram = TOUCHSTONE_BINARY;
@@ -148,4 +148,4 @@ TEST(Run, AnInterruptStillWritesWhatWasAskedFor) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::run_tests

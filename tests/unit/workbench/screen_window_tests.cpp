@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::screen_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -247,4 +247,4 @@ TEST_F(DeviceLossWindowTest, AgainAndAgainIsTheEnd) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::screen_window_tests

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <string>
 
-namespace touchstone::test {
+namespace touchstone::test::sculpt_command_tests {
 namespace {
 
 std::string textOf(const std::filesystem::path& file) {
@@ -243,4 +243,4 @@ TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sculpt_command_tests

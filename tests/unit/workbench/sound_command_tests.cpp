@@ -12,7 +12,7 @@
 #include <span>
 #include <sstream>
 
-namespace touchstone::test {
+namespace touchstone::test::sound_command_tests {
 namespace {
 
 /// The ribs of the swatches stand 4 mm apart, on the front of the board, x 68 to 108 mm, y 2 to 42 mm, z 6
@@ -123,4 +123,4 @@ TEST_F(SoundCommand, SaysWhatItCannotDoAndLeavesNothing) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sound_command_tests

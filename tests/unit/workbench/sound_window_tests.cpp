@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace touchstone::test {
+namespace touchstone::test::sound_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -68,4 +68,4 @@ TEST_F(SoundWindow, PlaysAtTheVolumeThatIsSetAndRemembersIt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sound_window_tests

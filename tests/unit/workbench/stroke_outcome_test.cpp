@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace touchstone {
+namespace touchstone::stroke_outcome_test {
 namespace {
 
 const StrokeRequest kTap{.name = "tap"};
@@ -34,4 +34,4 @@ TEST(StrokeOutcome, ARunThatIsShorterThanTheStrokeGetsANote) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::stroke_outcome_test

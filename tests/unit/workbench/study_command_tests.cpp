@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::study_command_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST_F(StudyCommand, ComparesTheOrderOfTwoStudies) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::study_command_tests

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::texture_command_tests {
 namespace {
 
 using Json = nlohmann::json;
@@ -156,4 +156,4 @@ TEST_F(TextureCommand, EditSetsWhereTextureCoordinatesComeFrom) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::texture_command_tests

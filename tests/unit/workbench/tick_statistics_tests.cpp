@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace touchstone {
+namespace touchstone::tick_statistics_tests {
 namespace {
 
 /// A hand that runs to and fro through a field of force.
@@ -107,4 +107,4 @@ TEST(StolenTime, IsTheEighthFigureOfTheFirstLine) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::tick_statistics_tests

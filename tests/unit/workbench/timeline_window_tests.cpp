@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <set>
 
-namespace touchstone::test {
+namespace touchstone::test::timeline_window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -393,4 +393,4 @@ TEST_F(TimelineWindow, ShowsMovedObjectsOfTheTimeUnderTheCursor) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::timeline_window_tests

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::test {
+namespace touchstone::test::ui_scale_tests {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -61,4 +61,4 @@ TEST(UiScale, IsReadFromANumberWithinTheLimitsOnly) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::ui_scale_tests

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::window_memory_tests {
 namespace {
 
 class WindowMemoryTest : public testing::Test {
@@ -127,4 +127,4 @@ TEST_F(WindowMemoryTest, NamesEachFileOnceNewestFirst) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::window_memory_tests

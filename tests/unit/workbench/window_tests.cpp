@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace touchstone::test {
+namespace touchstone::test::window_tests {
 namespace {
 
 const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
@@ -304,4 +304,4 @@ TEST(WindowStart, AModelThatIsNotThereEndsItWithAMessage) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::window_tests

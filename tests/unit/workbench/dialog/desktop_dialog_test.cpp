@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace touchstone::test {
+namespace touchstone::test::desktop_dialog_test {
 namespace {
 
 using End = ProcessAnswer::End;
@@ -85,4 +85,4 @@ TEST(DesktopDialog, OnlyAPathIsAnAnswer) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::desktop_dialog_test

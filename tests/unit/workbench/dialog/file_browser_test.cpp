@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::file_browser_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST_F(FileBrowserTest, PlacesExistAndStandOnce) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::file_browser_test

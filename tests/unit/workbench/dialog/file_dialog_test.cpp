@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::file_dialog_test {
 namespace {
 
 using Stage = FileDialog::Stage;
@@ -103,4 +103,4 @@ TEST_F(FileDialogTest, ANameThatGetsAnEndingIsAskedAboutAgain) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::file_dialog_test

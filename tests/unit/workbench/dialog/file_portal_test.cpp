@@ -12,7 +12,7 @@
 #include <optional>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::file_portal_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -159,4 +159,4 @@ TEST(FileUri, NamesLocalFilesAlone) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::file_portal_test

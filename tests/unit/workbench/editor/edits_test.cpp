@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone {
+namespace touchstone::edits_test {
 namespace {
 
 Scene twoMaterials() {
@@ -141,4 +141,4 @@ TEST(Presets, AreToldApartAndKeepMaps) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::edits_test

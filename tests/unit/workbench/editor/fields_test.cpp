@@ -9,7 +9,7 @@
 #include <fstream>
 #include <set>
 
-namespace touchstone {
+namespace touchstone::fields_test {
 namespace {
 
 using test::GltfMaker;
@@ -137,4 +137,4 @@ TEST(HapticFields, AParameterOfAProgramIsSetCheckedSavedAndReset) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::fields_test

@@ -22,7 +22,7 @@
 #include <functional>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::program_editor_test {
 namespace {
 
 std::string source(const std::string& friction) {
@@ -386,4 +386,4 @@ TEST_F(EditedPrograms, WhatTouchMadeOfATextureIsUnsavedUntilItIsSavedAndBeginsTh
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::program_editor_test

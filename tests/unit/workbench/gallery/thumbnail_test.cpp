@@ -15,7 +15,7 @@
 #include <fstream>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::thumbnail_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ TEST_F(HangingThumbnail, EndsWithTheThreadThatStartedIt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::thumbnail_test

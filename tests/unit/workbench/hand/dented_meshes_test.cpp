@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace touchstone::test {
+namespace touchstone::test::dented_meshes_test {
 namespace {
 
 /// A square of 81 x 81 vertices in y = 0, which gives way 2 cm around a contact.
@@ -74,4 +74,4 @@ TEST(DentedMeshes, WhatFacesAwayStays) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::dented_meshes_test

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::felt_part_test {
 namespace {
 
 /// Parts that hold nothing but their names, and one that cannot be made.
@@ -107,4 +107,4 @@ TEST_F(FeltParts, AnotherWholeModelDropsWhatIsOnItsWay) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::felt_part_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone {
+namespace touchstone::force_key_test {
 namespace {
 
 TEST(ForceKey, TakesAwayAtOnceAndGivesBackInTheNextFrame) {
@@ -148,4 +148,4 @@ TEST(ForceKey, APressThatTheWatchTellsLateIsNotASecondOne) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::force_key_test

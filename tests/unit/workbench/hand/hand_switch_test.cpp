@@ -14,7 +14,7 @@
 #include <memory>
 #include <span>
 
-namespace touchstone::test {
+namespace touchstone::test::hand_switch_test {
 namespace {
 
 class ToldDevice final : public LinkedDevice {
@@ -279,4 +279,4 @@ TEST_F(HandSwitchTest, CentringTheMouseIsNotDoneToTheDeviceAfterIt) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::hand_switch_test

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace touchstone {
+namespace touchstone::interrupt_test {
 namespace {
 
 /// A main loop that never looks up. It ends at last, should nothing end it.
@@ -84,4 +84,4 @@ TEST_F(Interrupt, TheThirdEndsItAtOnceWhereverThereIsNoForce) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::interrupt_test

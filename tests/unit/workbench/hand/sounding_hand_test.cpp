@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace touchstone::test {
+namespace touchstone::test::sounding_hand_test {
 namespace {
 
 TEST(SoundingHand, HearsPlaceAndForceInTheWorkspace) {
@@ -75,4 +75,4 @@ TEST(SoundingHand, PassesOnWhatTheServoSaysOfBodies) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::sounding_hand_test

@@ -13,7 +13,7 @@
 #include <memory>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::stroke_desk_test {
 namespace {
 
 TEST(StrokeController, IsAroundTheTouchedPointWheneverTheHandIsChosen) {
@@ -101,4 +101,4 @@ TEST(Picker, KnowsTheStiffestAndTheRoughest) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::stroke_desk_test

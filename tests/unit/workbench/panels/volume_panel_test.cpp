@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace touchstone {
+namespace touchstone::volume_panel_test {
 namespace {
 
 /// A volume with values from `low` to `high`.
@@ -134,4 +134,4 @@ TEST_F(VolumePanel, ValuesFarFromZeroAreNotRoundedToOneAnother) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::volume_panel_test

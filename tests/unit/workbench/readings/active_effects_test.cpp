@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone {
+namespace touchstone::active_effects_test {
 namespace {
 
 using State = ActiveEffect::State;
@@ -85,4 +85,4 @@ TEST(ActiveEffects, ThoseThatAreOnComeFirst) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::active_effects_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone {
+namespace touchstone::chart_file_test {
 namespace {
 
 /// Two ticks in contact: 0.6 N along z, 0.2 N along x.
@@ -87,4 +87,4 @@ TEST(ChartFile, NothingToDrawIsSaid) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::chart_file_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone {
+namespace touchstone::error_perception_test {
 namespace {
 
 study::LiveErrorFigures errors(double force, double share, double direction) {
@@ -44,4 +44,4 @@ TEST(ErrorPerception, WhatMayBeFeltIsAboveInEveryFigureThatMakesItSo) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::error_perception_test

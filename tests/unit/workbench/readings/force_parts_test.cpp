@@ -6,7 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace touchstone {
+namespace touchstone::force_parts_test {
 namespace {
 
 HapticOutput touching(const glm::dvec3& force, std::initializer_list<glm::dvec3> planes,
@@ -76,4 +76,4 @@ TEST(ForceHistory, KeepsBothPairsOfPartsAndTheComponents) {
 }
 
 } // namespace
-} // namespace touchstone
+} // namespace touchstone::force_parts_test

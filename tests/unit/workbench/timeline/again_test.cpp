@@ -19,7 +19,7 @@
 #include <span>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::again_test {
 namespace {
 
 class StillHand final : public Device {
@@ -421,4 +421,4 @@ TEST_F(AgainTest, TheSameHandFeelsTheSameAndWithOtherSettingsSomethingElse) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::again_test

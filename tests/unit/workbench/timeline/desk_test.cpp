@@ -15,7 +15,7 @@
 #include <optional>
 #include <thread>
 
-namespace touchstone::test {
+namespace touchstone::test::desk_test {
 namespace {
 
 class ControllerTest : public testing::Test {
@@ -270,4 +270,4 @@ TEST_F(ControllerTest, MayBeLeftAtAnyMoment) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::desk_test

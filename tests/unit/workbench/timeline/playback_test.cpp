@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone::test {
+namespace touchstone::test::playback_test {
 namespace {
 
 class PlaybackTest : public testing::Test {
@@ -122,4 +122,4 @@ TEST_F(PlaybackTest, GoesRoundBetweenItsMarks) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::playback_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::test {
+namespace touchstone::test::recording_files_test {
 namespace {
 
 class RecordingFiles : public testing::Test {
@@ -95,4 +95,4 @@ TEST(RecordingReason, IsTheLastFaultNotedOfWhatTheFlightRecorderKept) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::recording_files_test

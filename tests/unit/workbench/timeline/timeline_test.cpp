@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <random>
 
-namespace touchstone::test {
+namespace touchstone::test::timeline_test {
 namespace {
 
 TEST(MinMaxPyramid, IsWhatLookingAtEveryValueGives) {
@@ -296,4 +296,4 @@ TEST_F(TimelineTest, TheListSaysOfEachWhatItIs) {
 }
 
 } // namespace
-} // namespace touchstone::test
+} // namespace touchstone::test::timeline_test
