@@ -23,11 +23,12 @@ std::vector<HandCase> handsOver(const std::string& name, int ticks, double compa
 }
 
 ExactFigures runStroke(const StrokeCase& c, int ticks) {
-    const Scene scene = sceneOf(c.shape);
-    const double fitted = workspaceFromScene(scene, Fit::Workspace).scale;
+    const Scene source = sceneOf(c.shape);
+    const double fitted = workspaceFromScene(source, Fit::Workspace).scale;
+    ExactScene scene(source, Fit::None);
     char speed[32];
     std::snprintf(speed, sizeof speed, " %g m/s", c.speed);
-    ExactTrial trial(c.name + (c.radius > 0.0 ? " r.5" : " r0") + speed, scene, Fit::None,
+    ExactTrial trial(c.name + (c.radius > 0.0 ? " r.5" : " r0") + speed, scene,
                      {.radius = c.radius * fitted});
     trial.tick({0.2, 0.0, 0.0}, false);
     trial.forget();
@@ -38,11 +39,12 @@ ExactFigures runStroke(const StrokeCase& c, int ticks) {
     return trial.figures();
 }
 
-ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
-    ExactTrial trial(c.name, scene, fit, {.radius = c.radius, .freeRunning = c.compared >= 1.0});
-    const LSimilarity workspaceFromObject(trial.scene().objects[0]->workspaceFromObject);
-    const double unit = trial.scene().objects[0]->workspaceFromObject.scale / trial.workspacePerFitted();
-    SurfaceHand hand(trial.soup(0), unit, {.speed = c.speed, .length = c.taps ? 0.0 : 8e-3}, 7);
+ExactFigures runHand(const HandCase& c, ExactScene& scene) {
+    ExactTrial trial(c.name, scene, {.radius = c.radius, .freeRunning = c.compared >= 1.0});
+    const Similarity& placed = scene.haptic()->objects[0]->workspaceFromObject;
+    const LSimilarity workspaceFromObject(placed);
+    const double unit = placed.scale / scene.workspacePerFitted();
+    SurfaceHand hand(scene.soup(0), unit, {.speed = c.speed, .length = c.taps ? 0.0 : 8e-3}, 7);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     // A stroke that starts inside a closed object or between two sheets is felt by nobody.
@@ -55,6 +57,14 @@ ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit) {
         trial.forget();
     }
     return trial.figures();
+}
+
+std::vector<ExactFigures> runHands(const std::vector<HandCase>& hands, const Scene& scene) {
+    ExactScene exact(scene, Fit::Workspace);
+    std::vector<ExactFigures> all;
+    for (const HandCase& c : hands)
+        all.push_back(runHand(c, exact));
+    return all;
 }
 
 long double vertexError(const Scene& source, Fit fit) {
@@ -89,10 +99,7 @@ std::vector<ExactFigures> runFile(const std::filesystem::path& file, int ticks) 
     const Scene scene = asMeshes(*loadScene(file, options));
     // Welding moves a vertex by at most its tolerance.
     EXPECT_LT(vertexError(scene, Fit::Workspace), 1.1e-6L) << file;
-    std::vector<ExactFigures> all;
-    for (const HandCase& c : handsOver(file.stem().string(), ticks))
-        all.push_back(runHand(c, scene, Fit::Workspace));
-    return all;
+    return runHands(handsOver(file.stem().string(), ticks), scene);
 }
 
 void expectExact(const std::string& name, const std::vector<ExactFigures>& all) {

@@ -29,7 +29,8 @@ struct HandCase {
 /// Strokes in closed form over one of our shapes, for `ticks` ticks.
 [[nodiscard]] ExactFigures runStroke(const StrokeCase& c, int ticks);
 /// Random taps and strokes over a scene.
-[[nodiscard]] ExactFigures runHand(const HandCase& c, const Scene& scene, Fit fit);
+[[nodiscard]] ExactFigures runHand(const HandCase& c, ExactScene& scene);
+[[nodiscard]] std::vector<ExactFigures> runHands(const std::vector<HandCase>& hands, const Scene& scene);
 /// The worst distance of any corner of the compiled scene from the source's place for it, which is taken
 /// through all transforms in long double; in diagonals of its object.
 [[nodiscard]] long double vertexError(const Scene& source, Fit fit);

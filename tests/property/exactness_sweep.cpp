@@ -17,31 +17,22 @@ TEST(ExactnessSweep, OurShapes) {
     for (const auto& [name, shape] : {std::pair{"sphere1800", assets::sphere(0.05, 30, 30)},
                                       {"torus6480", assets::torus(0.06, 0.025, 72, 45)},
                                       {"torus64800", assets::torus(0.06, 0.025, 180, 180)}}) {
-        std::vector<ExactFigures> all;
-        for (const HandCase& c : handsOver(name, 5000))
-            all.push_back(runHand(c, sceneOf(shape), Fit::Workspace));
-        expectExact(name, all);
+        expectExact(name, runHands(handsOver(name, 5000), sceneOf(shape)));
     }
 }
 
 TEST(ExactnessSweep, AMillionTriangles) {
-    std::vector<ExactFigures> all;
     const Scene scene = sceneOf(assets::torus(0.06, 0.025, 1000, 500));
     ASSERT_EQ(scene.triangleCount(), 1000000u);
-    for (HandCase c : handsOver("torus1M", 2000, 0.2)) {
-        all.push_back(runHand(c, scene, Fit::Workspace));
-        EXPECT_GE(all.back().compared, 180) << c.name;
-    }
+    const std::vector<ExactFigures> all = runHands(handsOver("torus1M", 2000, 0.2), scene);
+    for (const ExactFigures& figures : all)
+        EXPECT_GE(figures.compared, 180) << figures.name;
     expectExact("torus1M", all);
 }
 
 TEST(ExactnessSweep, HardShapes) {
-    for (const HardShape& hard : hardShapes()) {
-        std::vector<ExactFigures> all;
-        for (const HandCase& c : handsOver(hard.name, 2000))
-            all.push_back(runHand(c, sceneOf(hard.shape), Fit::Workspace));
-        expectExact(hard.name, all);
-    }
+    for (const HardShape& hard : hardShapes())
+        expectExact(hard.name, runHands(handsOver(hard.name, 2000), sceneOf(hard.shape)));
 }
 
 TEST(ExactnessSweep, SceneFiles) {

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace touchstone::test {
 namespace {
@@ -59,8 +60,8 @@ TEST(Exactness, HandsOverOurShapes) {
     for (const auto& [name, shape] : {std::pair{"sphere1800", assets::sphere(0.05, 30, 30)},
                                       {"torus6480", assets::torus(0.06, 0.025, 72, 45)},
                                       {"torus64800", assets::torus(0.06, 0.025, 180, 180)}})
-        for (const HandCase& c : handsOver(name, 300))
-            all.push_back(runHand(c, sceneOf(shape), Fit::Workspace));
+        for (ExactFigures& figures : runHands(handsOver(name, 300), sceneOf(shape)))
+            all.push_back(std::move(figures));
     expectExact("our shapes", all);
 }
 
@@ -84,14 +85,16 @@ TEST(Exactness, ScalesAndFarNodes) {
                     char name[64];
                     std::snprintf(name, sizeof name, "torus %g%s%s%s", scale, far ? " far" : "",
                                   fit == Fit::None ? " bare" : " fit", radius > 0.0 ? " r.5" : " r0");
-                    all.push_back(runHand({name, radius, 0.3, 60}, scene, fit));
+                    ExactScene alone(scene, fit);
+                    all.push_back(runHand({name, radius, 0.3, 60}, alone));
                     const long double error = vertexError(scene, fit);
                     EXPECT_LT(error, 1e-6L) << name;
                     std::printf("%-28s vertices within %.1Le diagonals\n", name, error);
                     // Two that overlap: edges where both are touched.
                     addShape(scene, assets::sphere(0.05, 30, 30),
                              place * glm::translate(glm::dmat4(1.0), glm::dvec3(0.05, 0.02, 0.0)));
-                    all.push_back(runHand({std::string(name) + " +sphere", radius, 0.3, 60}, scene, fit));
+                    ExactScene both(scene, fit);
+                    all.push_back(runHand({std::string(name) + " +sphere", radius, 0.3, 60}, both));
                 }
     expectExact("scales and far nodes", all);
 }
@@ -129,7 +132,8 @@ TEST(Exactness, AFileWithAFarNode) {
             const long double error = vertexError(*scene, fit);
             std::printf("%-28s vertices within %.1Le diagonals\n", name, error);
             EXPECT_LT(error, 1e-6L) << name;
-            all.push_back(runHand({name, 0.5e-3, 0.3, 100}, *scene, fit));
+            ExactScene placed(*scene, fit);
+            all.push_back(runHand({name, 0.5e-3, 0.3, 100}, placed));
         }
     }
     expectExact("far file", all);
@@ -138,8 +142,8 @@ TEST(Exactness, AFileWithAFarNode) {
 TEST(Exactness, HandsOverHardShapes) {
     std::vector<ExactFigures> all;
     for (const HardShape& hard : hardShapes())
-        for (const HandCase& c : handsOver(hard.name, 150))
-            all.push_back(runHand(c, sceneOf(hard.shape), Fit::Workspace));
+        for (ExactFigures& figures : runHands(handsOver(hard.name, 150), sceneOf(hard.shape)))
+            all.push_back(std::move(figures));
     expectExact("hard shapes", all);
 }
 

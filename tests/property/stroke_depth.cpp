@@ -4,6 +4,7 @@
 #include "engine/scene/animation.h"
 #include "engine/scene/mesh_deformation.h"
 #include "tests/support/felt_stroke.h"
+#include "tests/support/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -53,9 +54,10 @@ int expectStrokes(const ScenePtr& scene, const std::string& name) {
         SCOPED_TRACE(name + ", " + std::string(info.name));
         const double asked = std::min(info.depth, 0.1 * diagonal);
         const StrokePath path = layStroke(*scene, fit, {.name = std::string(info.name)});
-        // An animation meets the stroke at another phase in every period.
+        // An animation meets the stroke at another phase in every period: a minute of it in the sweep.
+        const double animated = repetitions(20, 60); // s
         const int periods =
-            scene->animations.empty() ? 1 : 1 + static_cast<int>(std::ceil(60.0 / path.period()));
+            scene->animations.empty() ? 1 : 1 + static_cast<int>(std::ceil(animated / path.period()));
         const FeltStroke felt = feel(*haptic, path, scene, periods);
         if (table)
             std::printf("%s\t%s\t%.3f\t%.3f\t%.2f\t%016llx%s%s\n", name.c_str(),

@@ -32,22 +32,25 @@ std::string text(const char* format, auto... values) {
 
 } // namespace
 
-ExactTrial::ExactTrial(std::string name, const Scene& scene, Fit fit, const ExactOptions& options)
-    : options_(options), bench_(scene, bareSolve(options.radius), fit) {
+ExactScene::ExactScene(const Scene& scene, Fit fit)
+    : haptic_(compileHapticScene(scene, workspaceFromScene(scene, fit))),
+      workspacePerFitted_(haptic_->workspaceFromScene.scale /
+                          workspaceFromScene(scene, Fit::Workspace).scale) {}
+
+const Soup& ExactScene::soup(int frame) {
+    std::unique_ptr<Soup>& made = soups_[frame];
+    if (!made)
+        made = std::make_unique<Soup>(*haptic_, frame);
+    return *made;
+}
+
+ExactTrial::ExactTrial(std::string name, ExactScene& scene, const ExactOptions& options)
+    : scene_(scene), options_(options), bench_(scene.haptic(), bareSolve(options.radius)) {
     figures_.name = std::move(name);
-    workspacePerFitted_ =
-        bench_.scene->workspaceFromScene.scale / workspaceFromScene(scene, Fit::Workspace).scale;
-    bench_.settings.proxyRadius = options.radius * workspacePerFitted_;
+    bench_.settings.proxyRadius = options.radius * scene.workspacePerFitted();
     smallestDiagonal_ = INFINITY;
     for (const auto& object : bench_.scene->objects)
         smallestDiagonal_ = std::min(smallestDiagonal_, object->diagonal * object->workspaceFromObject.scale);
-}
-
-const Soup& ExactTrial::soup(int index) {
-    std::unique_ptr<Soup>& made = soups_[index];
-    if (!made)
-        made = std::make_unique<Soup>(*bench_.scene, index);
-    return *made;
 }
 
 void ExactTrial::forget() {
@@ -65,11 +68,11 @@ ExactTrial::Frame ExactTrial::frame() {
     const HapticObject& object = *bench_.scene->objects[static_cast<size_t>(reference)];
     const double scale = object.workspaceFromObject.scale;
     Frame f;
-    f.soup = &soup(reference);
+    f.soup = &scene_.soup(reference);
     f.goal = LSimilarity(object.workspaceFromObject).inversePoint(LVec3(bench_.output.hip));
     f.radius = static_cast<long double>(
         std::max(bench_.settings.proxyRadius / scale, 0.5 * kWeldTolerance * object.diagonal));
-    f.unit = static_cast<long double>(scale / workspacePerFitted_);
+    f.unit = static_cast<long double>(scale / scene_.workspacePerFitted());
     // Poses are doubles: what they lose of a goal far from the origin, and of other objects' places.
     const long double loss = 4.0L * static_cast<long double>(DBL_EPSILON / scale);
     f.aim = kRounding + loss * static_cast<long double>(glm::length(bench_.output.hip));
@@ -179,9 +182,9 @@ void ExactTrial::compareRestarted(const Frame& f, const LVec3& before) {
     const long double error = glm::length(rest.proxy - ours);
     if (error <= f.tolerance) {
         figures_.error = std::max(figures_.error, error * f.unit);
-        figures_.relative =
-            std::max(figures_.relative, error * f.unit * static_cast<long double>(workspacePerFitted_) /
-                                            static_cast<long double>(smallestDiagonal_));
+        figures_.relative = std::max(figures_.relative,
+                                     error * f.unit * static_cast<long double>(scene_.workspacePerFitted()) /
+                                         static_cast<long double>(smallestDiagonal_));
         return;
     }
     ++figures_.apart;

@@ -38,6 +38,23 @@ struct ExactFigures {
     std::vector<std::string> faults;                        ///< what may not be, with the tick
 };
 
+/// A compiled scene and the oracle's triangles in the frames of its objects, for any number of trials.
+class ExactScene {
+  public:
+    ExactScene(const Scene& scene, Fit fit);
+
+    [[nodiscard]] const std::shared_ptr<const HapticScene>& haptic() const { return haptic_; }
+    /// Workspace m per m of the fitted workspace.
+    [[nodiscard]] double workspacePerFitted() const { return workspacePerFitted_; }
+    /// The triangles in the frame of an object.
+    [[nodiscard]] const Soup& soup(int frame);
+
+  private:
+    std::shared_ptr<const HapticScene> haptic_;
+    double workspacePerFitted_ = 1.0;
+    std::map<int, std::unique_ptr<Soup>> soups_;
+};
+
 struct ExactOptions {
     double radius = 0.0; ///< m in the fitted workspace
     bool freeRunning = true;
@@ -45,7 +62,8 @@ struct ExactOptions {
 
 class ExactTrial {
   public:
-    ExactTrial(std::string name, const Scene& scene, Fit fit, const ExactOptions& options);
+    /// `scene` outlives it.
+    ExactTrial(std::string name, ExactScene& scene, const ExactOptions& options);
 
     /// One tick with the HIP at a place of the workspace. `compare`: with the oracle too.
     void tick(const glm::dvec3& hip, bool compare = true);
@@ -53,11 +71,6 @@ class ExactTrial {
     void forget();
 
     [[nodiscard]] const ExactFigures& figures() const { return figures_; }
-    [[nodiscard]] const HapticScene& scene() const { return *bench_.scene; }
-    /// Workspace m per m of the fitted workspace.
-    [[nodiscard]] double workspacePerFitted() const { return workspacePerFitted_; }
-    /// The triangles in the frame of an object.
-    [[nodiscard]] const Soup& soup(int frame);
     [[nodiscard]] bool placed() const { return bench_.state[0].placed; }
 
   private:
@@ -82,11 +95,10 @@ class ExactTrial {
     void fault(const std::string& what);
 
     ExactFigures figures_;
+    ExactScene& scene_;
     ExactOptions options_;
     TouchBench bench_;
-    double workspacePerFitted_ = 1.0;
     double smallestDiagonal_ = 0.0; ///< workspace m
-    std::map<int, std::unique_ptr<Soup>> soups_;
     std::vector<DeviceState> saved_, after_;
     bool finished_ = true;
     std::optional<LVec3> free_; ///< where the free-running oracle stands, reference object frame

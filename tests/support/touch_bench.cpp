@@ -4,6 +4,7 @@
 #include "haptics/tick/stepped_hand.h"
 
 #include <cmath>
+#include <utility>
 
 namespace touchstone::test {
 
@@ -59,7 +60,10 @@ Scene sceneOf(const assets::Shape& shape, const glm::dmat4& sceneFromMesh) {
 }
 
 TouchBench::TouchBench(const Scene& from, const HapticSettings& chosen, Fit fit)
-    : settings(chosen), scene(compileHapticScene(from, workspaceFromScene(from, fit))), state(1) {
+    : TouchBench(compileHapticScene(from, workspaceFromScene(from, fit)), chosen) {}
+
+TouchBench::TouchBench(std::shared_ptr<const HapticScene> compiled, const HapticSettings& chosen)
+    : settings(chosen), scene(std::move(compiled)), state(1) {
     world.shareTextures(persistentTextures(*scene));
 }
 

@@ -22,6 +22,8 @@ void addShape(Scene& scene, const assets::Shape& shape, const glm::dmat4& sceneF
 class TouchBench {
   public:
     explicit TouchBench(const Scene& scene, const HapticSettings& settings = {}, Fit fit = Fit::None);
+    /// Several benches may share one compiled scene.
+    TouchBench(std::shared_ptr<const HapticScene> scene, const HapticSettings& settings);
 
     /// One tick with the HIP at `hip` (workspace m).
     const HapticOutput& step(const glm::dvec3& hip);

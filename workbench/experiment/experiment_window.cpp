@@ -25,8 +25,8 @@ namespace {
 using experiment::PlanarStimulus;
 using experiment::SessionFlow;
 
-constexpr float kVolume = 0.5f;       // of full scale; the system's own volume sets the loudness
-constexpr double kStatusPeriod = 0.1; // s
+constexpr float kVolume = 0.5f;        // of full scale; the system's own volume sets the loudness
+constexpr double kStatusPeriod = 0.05; // s
 constexpr std::array<std::string_view, 5> kPageNames{"welcome", "training", "first", "second", "finished"};
 
 bool needsLocation(const experiment::StudyPlan& plan, const std::vector<size_t>& order) {

@@ -96,17 +96,17 @@ VirtualDisplay::Place VirtualDisplay::waitForWindow(const std::string& title) co
 
 void VirtualDisplay::move(const Place& place) const {
     xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
-    pause(150); // a frame or two: what follows must not come before the pointer
+    pause(kFrames); // what follows must not come before the pointer
 }
 
 void VirtualDisplay::press(int button) const {
     xdotool({"mousedown", std::to_string(button)});
-    pause(150);
+    pause(kFrames);
 }
 
 void VirtualDisplay::release(int button) const {
     xdotool({"mouseup", std::to_string(button)});
-    pause(150);
+    pause(kFrames);
 }
 
 void VirtualDisplay::click(const Place& place, int button) const {
@@ -124,7 +124,7 @@ void VirtualDisplay::drag(const Place& from, const Place& to, int button) const 
                  std::to_string(from.y + (to.y - from.y) * i / kSteps)});
         pause(40);
     }
-    pause(150);
+    pause(kFrames);
     release(button);
 }
 
@@ -150,7 +150,7 @@ void VirtualDisplay::scroll(const Place& place, int notches) const {
         xdotool({"click", notches > 0 ? "4" : "5"});
         pause(60);
     }
-    pause(150);
+    pause(kFrames);
 }
 
 } // namespace touchstone::test
