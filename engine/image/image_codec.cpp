@@ -1,8 +1,6 @@
 #include "engine/image/image_codec.h"
 
-#include "engine/process/helper_program.h"
-
-#include <dlfcn.h>
+#include "engine/process/loaded_module.h"
 
 namespace touchstone {
 
@@ -13,21 +11,12 @@ struct Loaded {
     std::string problem;
 };
 
-/// The library stays loaded: its own libraries keep state for each thread.
 Loaded load() {
-    const std::string file = helperProgram("touchstone_images.so").string();
-    const auto failed = [] {
-        const char* why = dlerror();
-        return Loaded{nullptr, "the image library cannot be loaded (" +
-                                   std::string(why != nullptr ? why : "no reason") +
-                                   "); build touchstone_images and leave it beside touchstone"};
-    };
-    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (library == nullptr)
-        return failed();
-    void* function = dlsym(library, kImageCodecSymbol);
+    std::string why;
+    void* const function = functionOfModule("touchstone_images.so", kImageCodecSymbol, why);
     if (function == nullptr)
-        return failed();
+        return {nullptr, "the image library cannot be loaded (" + why +
+                             "); build touchstone_images and leave it beside touchstone"};
     return {reinterpret_cast<const ImageCodec* (*)()>(function)(), ""};
 }
 

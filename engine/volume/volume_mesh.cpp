@@ -1,16 +1,13 @@
 #include "engine/volume/volume_mesh.h"
 
 #include "engine/core/error.h"
-#include "engine/volume/mesh_corners.h"
-
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/task_arena.h>
+#include "engine/grid/sparse_grid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -19,7 +16,7 @@ namespace touchstone {
 namespace {
 
 constexpr const char* kMeshing = "meshing the surface";
-constexpr int kLeaf = 8;
+constexpr int kLeaf = SparseGrid::kLeaf;
 constexpr int kMostStride = 4;
 
 /// Every `stride`-th voxel, at least the first and the last of an axis; coordinates from 0 on. The layer
@@ -123,26 +120,28 @@ class LeafValues {
 
 /// Leaves of 8^3 where the surface passes and next to them; elsewhere tiles that tell the side. Null where
 /// the surface would have more than `mostFaces`: dual contouring makes one of each edge that it crosses.
-openvdb::FloatGrid::Ptr gridOf(const CoarseSamples& samples, uint64_t mostFaces, const Progress& progress) {
-    auto grid = openvdb::FloatGrid::create(samples.far());
-    openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
+std::unique_ptr<SparseGrid> gridOf(const CoarseSamples& samples, uint64_t mostFaces,
+                                   const Progress& progress) {
+    // Two cores and no more (engine/core/parallel.h).
+    auto grid = gridLibrary().create(samples.far(), 2);
     const glm::ivec3 leaves = samples.size() / kLeaf + 1; // the first begins one leaf before
     LeafValues values;
+    std::array<float, static_cast<size_t>(kLeaf * kLeaf * kLeaf)> leaf;
     uint64_t faces = 0;
     const auto fill = [&](const glm::ivec3& first) {
-        const openvdb::Coord at(first.x, first.y, first.z);
         if (!samples.crosses(first - 1, first + kLeaf)) {
             if (samples.inside(first))
-                accessor.addTile(1, at, -samples.far(), false);
+                grid->fillLeaf(first, -samples.far());
             return;
         }
         values.fill(samples, first);
         faces += values.crossed();
-        auto* const leaf = accessor.touchLeaf(at);
+        size_t node = 0;
         for (int k = 0; k < kLeaf; ++k)
             for (int j = 0; j < kLeaf; ++j)
                 for (int i = 0; i < kLeaf; ++i)
-                    leaf->setValueOn(openvdb::Coord(i, j, k), values.at({i, j, k}));
+                    leaf[node++] = values.at({i, j, k});
+        grid->setLeaf(first, leaf);
     };
     for (int z = -1; z <= leaves.z; ++z) {
         progress.step(share(static_cast<size_t>(z + 1), static_cast<size_t>(leaves.z + 1)), kMeshing);
@@ -156,8 +155,8 @@ openvdb::FloatGrid::Ptr gridOf(const CoarseSamples& samples, uint64_t mostFaces,
 }
 
 /// The samples of the smallest stride from `stride` on, which it becomes, whose surface has few enough faces.
-openvdb::FloatGrid::Ptr smallEnoughGrid(const Volume& volume, double iso, int& stride, uint64_t mostFaces,
-                                        const std::string& shownAs, const Progress& progress) {
+std::unique_ptr<SparseGrid> smallEnoughGrid(const Volume& volume, double iso, int& stride, uint64_t mostFaces,
+                                            const std::string& shownAs, const Progress& progress) {
     for (; stride <= kMostStride; ++stride)
         if (auto grid = gridOf(CoarseSamples(volume, iso, stride), mostFaces, progress))
             return grid;
@@ -178,29 +177,21 @@ SurfaceMesh meshOfVolume(const Volume& volume, double iso, const std::string& sh
     int stride = 1;
     while (CoarseSamples(volume, iso, stride).count() > kMostDrawnVoxels)
         ++stride;
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
-    std::vector<openvdb::Vec4I> quads;
-    // Two cores and no more (engine/core/parallel.h): the default arena would take all of them from the
-    // servo, also to free a grid.
-    tbb::task_arena(2).execute([&] {
-        const openvdb::FloatGrid::Ptr grid =
-            smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
-        progress.step(0.4, kMeshing);
-        openvdb::tools::volumeToMesh(*grid, points, triangles, quads, 0.0, 0.0);
-    });
+    auto grid = smallEnoughGrid(volume, iso, stride, mostFaces, shownAs, progress.part(0.0, 0.4));
+    progress.step(0.4, kMeshing);
+    const GridFaces faces = grid->zero();
+    grid.reset();
     progress.step(0.8, kMeshing);
-    if (quads.empty() && triangles.empty())
+    if (faces.quads.empty() && faces.triangles.empty())
         throw Error(shownAs, "", "has no surface with this value", "give another --iso");
     SurfaceMesh mesh;
     mesh.stride = stride;
     const CoarseSamples samples(volume, iso, stride);
-    mesh.positions.reserve(points.size());
-    for (const openvdb::Vec3s& point : points)
-        mesh.positions.emplace_back(
-            volume.scenePoint(samples.voxel(glm::dvec3(point.x(), point.y(), point.z()))));
-    mesh.corners = triangleCorners(quads, triangles);
-    mesh.normals.assign(points.size(), glm::vec3(0.0f));
+    mesh.positions.reserve(faces.points.size());
+    for (const glm::vec3& point : faces.points)
+        mesh.positions.emplace_back(volume.scenePoint(samples.voxel(glm::dvec3(point))));
+    mesh.corners = triangleCorners(faces);
+    mesh.normals.assign(faces.points.size(), glm::vec3(0.0f));
     for (size_t at = 0; at < mesh.corners.size(); at += 3) {
         const uint32_t* const corner = &mesh.corners[at];
         const glm::vec3 area = glm::cross(mesh.positions[corner[1]] - mesh.positions[corner[0]],

@@ -5,6 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/import/volume_file/volume_import.h"
 #include "engine/volume/volume_mesh.h"
+#include "tests/support/sweep.h"
 #include "tests/support/volume_files.h"
 
 #include <gtest/gtest.h>
@@ -104,8 +105,8 @@ TEST_P(VolumeFuzz, MutantsAreRefusedOrGiveAVolume) {
     size_t loaded = 0, crashed = 0, refused = 0;
     // OpenVDB's files are slow to refuse, and hardly any survives several changes.
     const bool vdb = volumeFormatNamed(seed.name) == VolumeFormat::Vdb;
-    const size_t rounds = vdb ? 40 : 120;
-    for (size_t round = 0; round < rounds; ++round) {
+    const int rounds = vdb ? test::repetitions(16, 400) : test::repetitions(48, 1200);
+    for (int round = 0; round < rounds; ++round) {
         const VolumeBytes bytes = mutant(seed.bytes, vdb ? 1 : 5, random);
         const fs::path path = folder / seed.name;
         std::ofstream(path, std::ios::binary)

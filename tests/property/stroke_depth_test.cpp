@@ -25,7 +25,9 @@ void expectStrokesOn(const std::filesystem::path& folder) {
     std::ranges::sort(files);
     ASSERT_FALSE(files.empty()) << folder;
     for (const std::filesystem::path& file : files) {
-        const ScenePtr scene = loadScene(file, {});
+        LoadOptions options; // the bare surface is felt
+        options.images = {.visual = false, .haptic = false};
+        const ScenePtr scene = loadScene(file, options);
         if (scene->touchable())
             test::expectStrokes(scene, file.filename().string());
     }

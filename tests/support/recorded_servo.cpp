@@ -39,7 +39,9 @@ std::vector<DevicePort> portsOf(std::vector<RecordedServo::Hand>& hands) {
 
 TouchedScene touchedScene(const std::string& file) {
     TouchedScene scene;
-    scene.source = loadScene(std::filesystem::path(TOUCHSTONE_ASSETS) / file);
+    LoadOptions options;
+    options.images.visual = false;
+    scene.source = loadScene(std::filesystem::path(TOUCHSTONE_ASSETS) / file, options);
     scene.haptic = compileHapticScene(*scene.source, workspaceFromScene(*scene.source, Fit::Workspace));
     scene.identity = identify(*scene.haptic, *scene.source, Fit::Workspace);
     return scene;

@@ -3,14 +3,15 @@
 #include "engine/core/checksum.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/grid/sparse_grid.h"
 #include "haptics/shape/field/nearest_triangles.h"
 
-#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/version.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,17 +20,6 @@ namespace touchstone {
 namespace {
 
 constexpr const char* kBuilding = "building the distance field";
-
-/// OpenVDB asks it now and then whether to stop. As its base it is given to what OpenVDB's library holds
-/// compiled.
-class Interrupter final : public openvdb::util::NullInterrupter {
-  public:
-    explicit Interrupter(const Progress& progress) : progress_(progress) {}
-    bool wasInterrupted(int = -1) override { return progress_.cancelled(); }
-
-  private:
-    const Progress& progress_;
-};
 
 /// The object's bounds, and room about them for the field's outside and two voxels.
 void roomFor(const HapticObject& mesh, double outside, double voxel, glm::dvec3& low, glm::dvec3& size) {
@@ -100,26 +90,13 @@ std::vector<glm::dvec3> inGrid(const HapticObject& mesh, const FieldLayout& layo
 /// surface: up to kSure voxels no distance is less than its own, which is that to the triangles in float
 /// elsewhere. (With the triangles' distance alone such a face is a zero of the field, on whose rim the proxy
 /// runs out of moves; so it does where only what OpenVDB puts kSure deep is kept there.)
-openvdb::FloatGrid::Ptr sidesOf(const HapticObject& mesh, const std::vector<glm::dvec3>& places,
-                                const Progress& progress) {
+std::unique_ptr<SparseGrid> sidesOf(const HapticObject& mesh, const std::vector<glm::dvec3>& places,
+                                    const Progress& progress) {
     constexpr float kBand = 2.0f;
-    std::vector<openvdb::Vec3s> points;
-    points.reserve(places.size());
-    for (const glm::dvec3& p : places)
-        points.emplace_back(p.x, p.y, p.z);
-    std::vector<openvdb::Vec3I> triangles;
-    triangles.reserve(mesh.triangleCount());
-    for (size_t t = 0; t < mesh.triangleCount(); ++t)
-        triangles.emplace_back(mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]);
-    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> soup(points, triangles);
-    const auto unit = openvdb::math::Transform::createLinearTransform(1.0);
     constexpr double kTimePerTriangle = 1e-5; // s
     const EstimatedProgress estimate(progress, kBuilding,
                                      0.05 + kTimePerTriangle * static_cast<double>(mesh.triangleCount()));
-    Interrupter interrupter(progress);
-    auto sides = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-        static_cast<openvdb::util::NullInterrupter&>(interrupter), soup, *unit, kBand, kBand,
-        openvdb::tools::DISABLE_RENORMALIZATION);
+    auto sides = gridLibrary().distances(places, mesh.indices, kBand, [&] { return progress.cancelled(); });
     progress.stopIfCancelled();
     return sides;
 }
@@ -146,20 +123,10 @@ class NodeDistances {
         float flat = 0.0f;
     };
     /// What a thread keeps from one block to the next.
-    class Reader {
-      public:
-        explicit Reader(const openvdb::FloatGrid* sides) {
-            if (sides != nullptr)
-                sides_.emplace(sides->getConstAccessor());
-        }
-        /// Voxels: negative inside.
-        [[nodiscard]] float side(const glm::ivec3& node) const {
-            return sides_ ? sides_->getValue({node.x, node.y, node.z}) : 0.0f;
-        }
-        uint32_t known = 0; ///< NearestTriangles::lower
-
-      private:
-        std::optional<openvdb::FloatGrid::ConstAccessor> sides_;
+    struct Reader {
+        const SparseGrid* sides = nullptr; ///< voxels: negative inside; null: a shell
+        Nodes block{};                     ///< of the sides, where a block is measured
+        uint32_t known = 0;                ///< NearestTriangles::lower
     };
     static constexpr int kPair = 2; ///< blocks a side whose middles are measured at once
     static_assert(kPair * kPair * kPair == NearestTriangles::kPlaces);
@@ -197,7 +164,7 @@ NodeDistances::NodeDistances(const HapticObject& mesh, const FieldLayout& layout
     const auto rows = static_cast<size_t>(pairs.y) * static_cast<size_t>(pairs.z);
     inParallel(rows * kProgressWork, progress.part(0.4, 1.0), kBuilding, [&](size_t begin, size_t) {
         const auto row = static_cast<int>(begin / kProgressWork);
-        Reader reader(sides.get());
+        Reader reader{.sides = sides.get()};
         for (int x = 0; x < pairs.x; ++x)
             measurePair(kPair * glm::ivec3(x, row % pairs.y, row / pairs.y), reader);
     });
@@ -218,7 +185,8 @@ void NodeDistances::measurePair(const glm::ivec3& block, Reader& reader) {
         if (glm::any(glm::greaterThanEqual(own(k), count_)))
             continue;
         const double distance = std::sqrt(squared[k]);
-        const float side = reader.side(kSide * own(k)); // of the whole block where it is far
+        // Of the whole block where it is far.
+        const float side = reader.sides != nullptr ? reader.sides->value(kSide * own(k)) : 0.0f;
         if (distance - corner >= reach(side))
             blocks_[numberOf(own(k))].flat = valueOf(squared[k], side);
         else
@@ -232,6 +200,12 @@ void NodeDistances::measureBlock(const glm::ivec3& block, double middle, Reader&
     std::array<glm::dvec3, NearestTriangles::kPlaces> places;
     std::array<double, NearestTriangles::kPlaces> squared;
     std::array<float, NearestTriangles::kPlaces> sides;
+    static_assert(kSide == SparseGrid::kLeaf);
+    if (reader.sides != nullptr)
+        reader.sides->copyLeaf(kSide * block, reader.block);
+    const auto numberIn = [](const glm::ivec3& node) {
+        return static_cast<size_t>(node.x + kSide * (node.y + kSide * node.z));
+    };
     for (int z = 0; z < kSide; z += 2)
         for (int y = 0; y < kSide; y += 2)
             for (int x = 0; x < kSide; x += 2) {
@@ -239,20 +213,16 @@ void NodeDistances::measureBlock(const glm::ivec3& block, double middle, Reader&
                     return glm::ivec3(x, y, z) + glm::ivec3(k & 1, k >> 1 & 1, k >> 2);
                 };
                 for (size_t k = 0; k < places.size(); ++k) {
-                    const glm::ivec3 at = kSide * block + node(k);
-                    places[k] = glm::dvec3(at);
-                    sides[k] = reader.side(at);
+                    places[k] = glm::dvec3(kSide * block + node(k));
+                    sides[k] = reader.block[numberIn(node(k))];
                     // No farther than the way to the middle and on to its nearest place.
                     const double most = std::min(
                         reach(sides[k]), middle + glm::distance(glm::dvec3(node(k)), glm::dvec3(kHalf)));
                     squared[k] = most * most;
                 }
                 triangles_.lower(places, squared, reader.known);
-                for (size_t k = 0; k < places.size(); ++k) {
-                    const glm::ivec3 at = node(k);
-                    (*nodes)[static_cast<size_t>(at.x + kSide * (at.y + kSide * at.z))] =
-                        valueOf(squared[k], sides[k]);
-                }
+                for (size_t k = 0; k < places.size(); ++k)
+                    (*nodes)[numberIn(node(k))] = valueOf(squared[k], sides[k]);
             }
 }
 
@@ -363,6 +333,7 @@ uint64_t keyOf(const HapticObject& mesh, const FieldRequest& request) {
 
 std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const FieldRequest& request,
                                              const FieldCache& cache, const Progress& progress) {
+    (void)gridLibrary(); // where it is missing a cached field is refused, too, before its mesh is drawn
     const uint64_t key = keyOf(mesh, request);
     if (auto kept = cache.find(key))
         return kept;

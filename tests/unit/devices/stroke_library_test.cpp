@@ -42,7 +42,9 @@ void expectEveryStrokeTouches(const std::filesystem::path& folder) {
         if (file.parent_path() != folder)
             continue;
         ++files;
-        const ScenePtr scene = loadScene(file, {});
+        LoadOptions options; // the bare surface is felt
+        options.images = {.visual = false, .haptic = false};
+        const ScenePtr scene = loadScene(file, options);
         const Similarity fit = workspaceFromScene(*scene, Fit::Workspace);
         const auto haptic = compileHapticScene(*scene, fit, {});
         for (const StrokeInfo& info : strokeInfos()) {

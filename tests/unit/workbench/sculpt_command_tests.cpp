@@ -242,5 +242,23 @@ TEST_F(SculptCommand, ARunSculptsWhatTheHandStrokes) {
               2);
 }
 
+/// A program without the module that holds OpenVDB touches meshes, and says what a field needs.
+TEST_F(SculptCommand, WithoutTheLibraryOfGridsAFieldIsRefusedByNameAndAMeshTouched) {
+    const std::filesystem::path alone = folder_ / "touchstone";
+    std::filesystem::copy_file(TOUCHSTONE_BINARY, alone);
+    const auto touched = [&](const char* scene) {
+        return runProgram({alone, "touch", std::string(TOUCHSTONE_ASSETS "/") + scene, "--path",
+                           folder_ / "path.csv", "--out", folder_ / "ticks.csv"},
+                          {"XDG_CACHE_HOME=" + (folder_ / "cache").string()});
+    };
+    const ProgramResult field = touched("field_torus.glb");
+    EXPECT_EQ(field.status, 1);
+    EXPECT_NE(field.err.find("touchstone_grids.so: the library of distance fields cannot be loaded"),
+              std::string::npos)
+        << field.err;
+    EXPECT_NE(field.err.find("remedy: build touchstone_grids"), std::string::npos) << field.err;
+    EXPECT_EQ(touched("torus_64800.glb").status, 0);
+}
+
 } // namespace
 } // namespace touchstone::test::sculpt_command_tests

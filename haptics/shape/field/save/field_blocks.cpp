@@ -1,13 +1,11 @@
 #include "haptics/shape/field/save/field_blocks.h"
 
+#include "engine/grid/sparse_grid.h"
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/save/field_faces.h"
 
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <memory>
 #include <set>
 
 namespace touchstone {
@@ -16,7 +14,7 @@ namespace {
 
 /// The grid's nodes of a block and one more cell on every side; grid coordinates as index space. Null where
 /// no surface passes.
-openvdb::FloatGrid::Ptr gridOfBlock(const FieldGrid& field, const glm::ivec3& first, int side) {
+std::unique_ptr<SparseGrid> gridOfBlock(const FieldGrid& field, const glm::ivec3& first, int side) {
     const glm::ivec3 low = glm::max(first - 1, glm::ivec3(0));
     const glm::ivec3 high = glm::min(first + side + 1, field.layout().cells);
     const glm::ivec3 size = high - low + 1;
@@ -26,13 +24,8 @@ openvdb::FloatGrid::Ptr gridOfBlock(const FieldGrid& field, const glm::ivec3& fi
     const auto [least, most] = std::ranges::minmax(values);
     if (!(least < 0.0f) || most < 0.0f)
         return nullptr;
-    auto grid = openvdb::FloatGrid::create(static_cast<float>(field.outside()));
-    openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
-    size_t i = 0;
-    for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x)
-                accessor.setValueOn({x, y, z}, values[i++]);
+    auto grid = gridLibrary().create(static_cast<float>(field.outside()), 1);
+    grid->setBox(low, size, values);
     return grid;
 }
 
@@ -41,23 +34,19 @@ FieldBlocks::Block blockOf(const std::shared_ptr<const FieldGrid>& grid, const g
                            const FieldColors* colors) {
     constexpr int kBlock = FieldBlocks::kBlock;
     FieldBlocks::Block made;
-    const openvdb::FloatGrid::Ptr nodes = gridOfBlock(*grid, kBlock * block, kBlock);
+    const std::unique_ptr<SparseGrid> nodes = gridOfBlock(*grid, kBlock * block, kBlock);
     if (nodes == nullptr)
         return made;
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles; // none without adaptivity
-    std::vector<openvdb::Vec4I> quads;
-    tbb::task_arena(1).execute(
-        [&] { openvdb::tools::volumeToMesh(*nodes, points, triangles, quads, 0.0, 0.0); });
+    GridFaces zero = nodes->zero();
     // A quad belongs to the block that has its edge of the grid.
-    std::erase_if(quads, [&](const openvdb::Vec4I& quad) {
-        const glm::ivec3 owner = cellsOf(points, quad).high;
+    std::erase_if(zero.quads, [&](const GridFaces::Quad& quad) {
+        const glm::ivec3 owner = cellsOf(zero, quad).high;
         return glm::any(glm::lessThan(owner, kBlock * block)) ||
                glm::any(glm::greaterThanEqual(owner, kBlock * (block + 1)));
     });
     const FieldShape shape(grid);
     const FieldLayout& layout = grid->layout();
-    const FieldFaces faces = facesOf(*grid, points, quads);
+    const FieldFaces faces = facesOf(*grid, zero);
     std::vector<uint32_t> renumbered(faces.vertices.size(), UINT32_MAX);
     for (const uint32_t corner : faces.corners) {
         uint32_t& number = renumbered[corner];
@@ -103,7 +92,6 @@ size_t FieldBlocks::update(const std::shared_ptr<const FieldGrid>& grid, std::sp
         }
     }
     meshed_ = true;
-    openvdb::initialize();
     for (const uint32_t number : dirty) {
         const int n = static_cast<int>(number);
         blocks_.erase(number);

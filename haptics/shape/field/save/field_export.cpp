@@ -1,16 +1,12 @@
 #include "haptics/shape/field/save/field_export.h"
 
 #include "engine/core/error.h"
+#include "engine/grid/sparse_grid.h"
 #include "haptics/shape/field/field_shape.h"
 #include "haptics/shape/field/save/field_faces.h"
 
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/task_arena.h>
-
 #include <array>
-#include <sstream>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,36 +15,31 @@ namespace touchstone {
 namespace {
 
 /// Grid coordinates as index space; values times `scale`. Flat bricks are tiles.
-openvdb::FloatGrid::Ptr gridOfField(const FieldGrid& field, double scale) {
+std::unique_ptr<SparseGrid> gridOfField(const FieldGrid& field, double scale) {
     const auto outside = static_cast<float>(scale * field.outside());
     const auto inside = static_cast<float>(-scale * field.inside());
-    auto grid = openvdb::FloatGrid::create(outside);
-    openvdb::FloatGrid::Accessor accessor = grid->getAccessor();
+    static_assert(kBrickCells == SparseGrid::kLeaf);
+    auto grid = gridLibrary().create(outside, 2);
+    std::array<float, static_cast<size_t>(kBrickCells * kBrickCells * kBrickCells)> leaf{};
     std::array<float, kNodesInBrick> nodes{};
     const glm::ivec3 bricks = field.bricks();
     for (int z = 0; z < bricks.z; ++z)
         for (int y = 0; y < bricks.y; ++y)
             for (int x = 0; x < bricks.x; ++x) {
                 const glm::ivec3 first = kBrickCells * glm::ivec3(x, y, z);
-                const openvdb::Coord at(first.x, first.y, first.z);
                 if (const float flat = field.flatBrick(first); flat == flat) {
                     if (flat < 0.0f)
-                        accessor.addTile(1, at, static_cast<float>(scale * static_cast<double>(flat)), false);
+                        grid->fillLeaf(first, static_cast<float>(scale * static_cast<double>(flat)));
                     continue;
                 }
                 field.copyBrick({x, y, z}, nodes);
-                auto* const leaf = accessor.touchLeaf(at);
+                size_t node = 0;
                 for (int k = 0; k < kBrickCells; ++k)
                     for (int j = 0; j < kBrickCells; ++j)
-                        for (int i = 0; i < kBrickCells; ++i) {
-                            const auto value =
+                        for (int i = 0; i < kBrickCells; ++i)
+                            leaf[node++] =
                                 static_cast<float>(scale * static_cast<double>(nodes[brickNode({i, j, k})]));
-                            const openvdb::Coord node(i, j, k);
-                            if (value > inside && value < outside)
-                                leaf->setValueOn(node, value);
-                            else
-                                leaf->setValueOff(node, value);
-                        }
+                grid->setLeaf(first, leaf, inside, outside);
             }
     return grid;
 }
@@ -57,22 +48,16 @@ openvdb::FloatGrid::Ptr gridOfField(const FieldGrid& field, double scale) {
 
 SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Similarity& sceneFromObject,
                         const FieldColors* colors) {
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles; // none without adaptivity
-    std::vector<openvdb::Vec4I> quads;
-    tbb::task_arena(2).execute([&] {
-        openvdb::initialize();
-        openvdb::tools::volumeToMesh(*gridOfField(*field, 1.0), points, triangles, quads, 0.0, 0.0);
-    });
-    if (quads.size() > kMostSurfaceFaces) // triangles: two each, some four
+    const GridFaces zero = gridOfField(*field, 1.0)->zero();
+    if (zero.quads.size() > kMostSurfaceFaces) // triangles: two each, some four
         throw Error("sculpting", "",
-                    "the surface has " + std::to_string(quads.size()) + " faces, of which " +
+                    "the surface has " + std::to_string(zero.quads.size()) + " faces, of which " +
                         std::to_string(kMostSurfaceFaces) + " fit",
                     "use larger voxels");
     SurfaceMesh mesh;
     const FieldLayout& layout = field->layout();
     const FieldShape shape(field);
-    FieldFaces faces = facesOf(*field, points, quads);
+    FieldFaces faces = facesOf(*field, zero);
     mesh.positions.reserve(faces.vertices.size());
     mesh.normals.reserve(faces.vertices.size());
     for (const glm::dvec3& vertex : faces.vertices) {
@@ -88,27 +73,14 @@ SurfaceMesh meshOfField(const std::shared_ptr<const FieldGrid>& field, const Sim
 }
 
 std::string vdbOfField(const FieldGrid& field, const Similarity& sceneFromObject, const std::string& name) {
-    openvdb::initialize();
-    const openvdb::FloatGrid::Ptr grid = gridOfField(field, sceneFromObject.scale);
     const FieldLayout& layout = field.layout();
-    // OpenVDB multiplies row vectors: an axis is a row.
-    openvdb::Mat4d worldFromIndex = openvdb::Mat4d::identity();
+    std::array<glm::dvec3, 3> steps{};
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 unit(0.0);
         unit[axis] = layout.voxel;
-        const glm::dvec3 step = sceneFromObject.vector(unit);
-        for (int k = 0; k < 3; ++k)
-            worldFromIndex(axis, k) = step[k];
+        steps[static_cast<size_t>(axis)] = sceneFromObject.vector(unit);
     }
-    const glm::dvec3 origin = sceneFromObject.point(layout.origin);
-    for (int k = 0; k < 3; ++k)
-        worldFromIndex(3, k) = origin[k];
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(worldFromIndex));
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    grid->setName(name);
-    std::ostringstream bytes(std::ios::binary);
-    openvdb::io::Stream(bytes).write(openvdb::GridCPtrVec{grid});
-    return std::move(bytes).str();
+    return gridOfField(field, sceneFromObject.scale)->file(name, steps, sceneFromObject.point(layout.origin));
 }
 
 } // namespace touchstone

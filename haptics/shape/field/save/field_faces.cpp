@@ -11,10 +11,6 @@ namespace touchstone {
 
 namespace {
 
-glm::dvec3 placeOf(const openvdb::Vec3s& point) {
-    return glm::dvec3(glm::vec3(point.x(), point.y(), point.z()));
-}
-
 /// Along the gradient onto the zero of the cell's polynomial, or as near to it as the cell goes.
 glm::dvec3 ontoSurface(const FieldGrid& field, const glm::dvec3& vertex) {
     constexpr int kSteps = 8;
@@ -77,35 +73,35 @@ int bestCut(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& crossing
 
 } // namespace
 
-QuadCells cellsOf(const std::vector<openvdb::Vec3s>& points, const openvdb::Vec4I& quad) {
+QuadCells cellsOf(const GridFaces& faces, const GridFaces::Quad& quad) {
     QuadCells cells{.low = glm::ivec3(INT32_MAX), .high = glm::ivec3(INT32_MIN)};
-    for (int corner = 0; corner < 4; ++corner) {
-        const glm::ivec3 cell(glm::floor(placeOf(points[quad[corner]])));
+    for (const uint32_t corner : quad) {
+        const glm::ivec3 cell(glm::floor(faces.points[corner]));
         cells.low = glm::min(cells.low, cell);
         cells.high = glm::max(cells.high, cell);
     }
     return cells;
 }
 
-FieldFaces facesOf(const FieldGrid& field, const std::vector<openvdb::Vec3s>& points,
-                   const std::vector<openvdb::Vec4I>& quads) {
+FieldFaces facesOf(const FieldGrid& field, const GridFaces& made) {
     FieldFaces faces;
-    faces.vertices.reserve(points.size());
-    for (const openvdb::Vec3s& point : points)
-        faces.vertices.push_back(ontoSurface(field, placeOf(point)));
-    faces.corners.reserve(6 * quads.size());
-    for (const openvdb::Vec4I& quad : quads) {
+    faces.vertices.reserve(made.points.size());
+    for (const glm::vec3& point : made.points)
+        faces.vertices.push_back(ontoSurface(field, glm::dvec3(point)));
+    faces.corners.reserve(6 * made.quads.size());
+    for (const GridFaces::Quad& quad : made.quads) {
         const std::array<glm::dvec3, 4> corners{faces.vertices[quad[0]], faces.vertices[quad[1]],
                                                 faces.vertices[quad[2]], faces.vertices[quad[3]]};
-        const auto crossing = crossingOf(field, cellsOf(points, quad));
+        const auto crossing = crossingOf(field, cellsOf(made, quad));
         const int cut = crossing ? bestCut(corners, *crossing) : 0;
         if (cut == kNoCut) {
             const auto first = static_cast<uint32_t>(faces.vertices.size());
-            for (int k = 0; k < 4; ++k)
+            for (size_t k = 0; k < 4; ++k)
                 faces.corners.insert(faces.corners.end(), {quad[k], quad[(k + 1) % 4], first});
             faces.vertices.push_back(*crossing);
         } else {
-            const uint32_t a = quad[cut], b = quad[cut + 1], c = quad[cut + 2], d = quad[(cut + 3) % 4];
+            const auto at = [&](int k) { return quad[static_cast<size_t>((cut + k) % 4)]; };
+            const uint32_t a = at(0), b = at(1), c = at(2), d = at(3);
             faces.corners.insert(faces.corners.end(), {a, b, c, a, c, d});
         }
     }
