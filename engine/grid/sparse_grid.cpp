@@ -18,12 +18,12 @@ std::vector<uint32_t> triangleCorners(const GridFaces& faces) {
 const GridLibrary& gridLibrary() {
     constexpr const char* kFile = "touchstone_grids.so";
     static std::string why;
-    static const void* const function = functionOfModule(kFile, kGridLibrarySymbol, why);
+    static void* const function = functionOfModule(kFile, kGridLibrarySymbol, why);
     if (function == nullptr)
-        throw Error(kFile, "", "the library of distance fields cannot be loaded (" + why + ")",
+        throw Error(kFile, "",
+                    "the library of grids (distance fields, volumes) cannot be loaded (" + why + ")",
                     "build touchstone_grids and leave it beside touchstone");
-    static const GridLibrary& library =
-        *reinterpret_cast<const GridLibrary* (*)()>(const_cast<void*>(function))();
+    static const GridLibrary& library = *reinterpret_cast<const GridLibrary* (*)()>(function)();
     return library;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// What the program knows of touchstone_grids.so, the one part that links OpenVDB: 68,866 symbols with long
-// names, 26 ms of every start, which a model without fields does not need.
+// What the program knows of touchstone_grids.so, the one part of it that links OpenVDB: 68,866 symbols with
+// long names, 26 ms of every start, which a model without fields does not need. (touchstone_volume_reader is
+// a process of its own.)
 
 #include <glm/glm.hpp>
 
@@ -58,10 +59,13 @@ class GridLibrary {
   public:
     virtual ~GridLibrary() = default;
 
+    /// OpenVDB's: what it makes may differ between versions.
+    [[nodiscard]] virtual uint32_t version() const = 0;
     /// `threads`: that it may use where it works, and where it is freed.
     [[nodiscard]] virtual std::unique_ptr<SparseGrid> create(float background, int threads) const = 0;
     /// Signed distances of a closed mesh, negative inside, `band` voxels to either side. `corners`: three a
-    /// triangle. `cancelled` is asked now and then; what is returned then is of no use.
+    /// triangle. Works on all cores, which ask `cancelled` now and then, at once, and free the grid; what is
+    /// returned when cancelled is of no use.
     [[nodiscard]] virtual std::unique_ptr<SparseGrid>
     distances(std::span<const glm::dvec3> vertices, std::span<const uint32_t> corners, float band,
               const std::function<bool()>& cancelled) const = 0;

@@ -136,6 +136,7 @@ class OpenVdbLibrary final : public GridLibrary {
   public:
     OpenVdbLibrary() { openvdb::initialize(); }
 
+    [[nodiscard]] uint32_t version() const override { return openvdb::OPENVDB_LIBRARY_VERSION; }
     [[nodiscard]] std::unique_ptr<SparseGrid> create(float background, int threads) const override {
         return std::make_unique<OpenVdbGrid>(openvdb::FloatGrid::create(background), threads);
     }

@@ -6,8 +6,6 @@
 #include "engine/grid/sparse_grid.h"
 #include "haptics/shape/field/nearest_triangles.h"
 
-#include <openvdb/version.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -309,7 +307,7 @@ uint64_t keyOf(const HapticObject& mesh, const FieldRequest& request) {
     Hash64 hash;
     hash.add(kBuilder);
     hash.add(FieldGrid::kBrick);
-    hash.add(openvdb::OPENVDB_LIBRARY_VERSION);
+    hash.add(gridLibrary().version());
     hash.add(mesh.closed);
     for (const double number : {request.voxel, request.inside, request.outside})
         hash.add(number);
@@ -333,7 +331,6 @@ uint64_t keyOf(const HapticObject& mesh, const FieldRequest& request) {
 
 std::shared_ptr<const FieldGrid> fieldOfMesh(const HapticObject& mesh, const FieldRequest& request,
                                              const FieldCache& cache, const Progress& progress) {
-    (void)gridLibrary(); // where it is missing a cached field is refused, too, before its mesh is drawn
     const uint64_t key = keyOf(mesh, request);
     if (auto kept = cache.find(key))
         return kept;

@@ -95,6 +95,17 @@ class Installed(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
+    def test_a_field_is_touched_and_drawn(self):
+        """What makes a grid loads touchstone_grids.so out of the installation."""
+        model = str(self.prefix / "share/touchstone/scenes/field_torus.glb")
+        with tempfile.TemporaryDirectory() as folder:
+            ticks = pathlib.Path(folder) / "ticks.csv"
+            run(str(self.prefix / "bin/touchstone"), "touch", model, "--stroke", "circle", "--out", str(ticks),
+                env={"XDG_CACHE_HOME": folder})
+            rows = [line.split(",") for line in ticks.read_text().splitlines()]
+            contacts = rows[0].index("contacts")
+            self.assertGreater(sum(int(row[contacts]) > 0 for row in rows[1:]), 100)
+
     def test_a_project_of_cmake(self):
         with tempfile.TemporaryDirectory() as project:
             at = pathlib.Path(project)

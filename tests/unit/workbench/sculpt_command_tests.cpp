@@ -253,7 +253,8 @@ TEST_F(SculptCommand, WithoutTheLibraryOfGridsAFieldIsRefusedByNameAndAMeshTouch
     };
     const ProgramResult field = touched("field_torus.glb");
     EXPECT_EQ(field.status, 1);
-    EXPECT_NE(field.err.find("touchstone_grids.so: the library of distance fields cannot be loaded"),
+    EXPECT_NE(field.err.find(
+                  "touchstone_grids.so: the library of grids (distance fields, volumes) cannot be loaded"),
               std::string::npos)
         << field.err;
     EXPECT_NE(field.err.find("remedy: build touchstone_grids"), std::string::npos) << field.err;

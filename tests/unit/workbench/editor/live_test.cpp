@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <thread>
 
 namespace touchstone::live_test {
@@ -72,18 +72,18 @@ MadeMaterials expectTheSameWhenOpenedAgain(const std::filesystem::path& path, co
     return made;
 }
 
-/// What is done to each material, and whether it may change what the hand touches.
+/// What is done to each material, and whether the hand goes on touching it.
 struct Change {
     const char* what;
-    std::function<void(HapticStatement& next, const Scene& scene, size_t m)> change;
-    enum class Touch : uint8_t { GoesOn, BeginsAnew, Either } touch = Touch::GoesOn;
+    void (*change)(HapticStatement& next);
+    bool touchGoesOn = true;
 };
 
-void stateNothing(HapticStatement& next, const Scene&, size_t) {
+void stateNothing(HapticStatement& next) {
     const HapticStatement was = next;
     next = HapticStatement{};
-    next.implicit =
-        was.implicit; // another representation is another geometry; so are other voxels and another texture
+    // Another representation is another geometry, and so are other voxels and another texture.
+    next.implicit = was.implicit;
     for (const HapticNumber& number : hapticNumbers())
         if (number.settled == nullptr)
             next.*number.stated = was.*number.stated;
@@ -93,77 +93,75 @@ void stateNothing(HapticStatement& next, const Scene&, size_t) {
     next.dampingMap = was.dampingMap;
 }
 
-const std::vector<Change>& changes() {
-    static const std::vector<Change> all{
-        {"rubber", [](HapticStatement& next, const Scene&,
-                      size_t) { next = withPreset(std::move(next), *findPreset("rubber")); }},
-        {"no shading",
-         [](HapticStatement& next, const Scene&, size_t) { next.forceShading = ShadingChoice::Off; }},
-        {"no relief",
-         [](HapticStatement& next, const Scene&, size_t) {
-             next.normalTextureInfluence = 0.0f;
-             if (next.height)
-                 next.height->scale = 0.0f;
-         }},
-        {"nothing stated", stateNothing},
-        {"one side",
-         [](HapticStatement& next, const Scene&, size_t) {
-             next.sides = next.sides == SideChoice::Front ? SideChoice::Both : SideChoice::Front;
-         },
-         Change::Touch::BeginsAnew},
-        {"other maps",
-         [](HapticStatement& next, const Scene& scene, size_t m) {
-             if (scene.textures.empty())
-                 return;
-             const size_t t = m % scene.textures.size();
-             (void)setHapticField(next, scene, "heightTexture", std::to_string(t));
-             (void)setHapticField(next, scene, "stiffnessTexture", std::to_string(t));
-             (void)setHapticField(next, scene, "stiffnessTexture.min", "0.5");
-         },
-         Change::Touch::Either}};
-    return all;
+void haveNoRelief(HapticStatement& next) {
+    next.normalTextureInfluence = 0.0f;
+    if (next.height)
+        next.height->scale = 0.0f;
 }
 
-/// Numbers on every file. Of the other changes two, which the file's number chooses; as a sweep all.
-void expectTheSameForChanges(const std::filesystem::path& path, size_t number) {
-    const Model model = modelOf(path);
-    const MadeMaterials numbers =
+void turnSides(HapticStatement& next) {
+    next.sides = next.sides == SideChoice::Front ? SideChoice::Both : SideChoice::Front;
+}
+
+const std::array kChanges{
+    Change{"rubber",
+           [](HapticStatement& next) { next = withPreset(std::move(next), *findPreset("rubber")); }},
+    Change{"no shading", [](HapticStatement& next) { next.forceShading = ShadingChoice::Off; }},
+    Change{"no relief", haveNoRelief},
+    Change{"nothing stated", stateNothing},
+    Change{"one side", turnSides, false},
+};
+
+void expectTheSameForNumbers(const std::filesystem::path& path, const Model& model) {
+    const MadeMaterials made =
         expectTheSameWhenOpenedAgain(path, model, "numbers", [](HapticStatement& next, size_t) {
             next.stiffness = 321.0f;
             next.damping = 0.5f;
             next.staticFriction = 0.6f;
             next.viscousFriction = 0.25f;
         });
-    EXPECT_TRUE(numbers.touchGoesOn);
-    EXPECT_FALSE(numbers.read);
+    EXPECT_TRUE(made.touchGoesOn);
+    EXPECT_FALSE(made.read);
     for (size_t i = 0; i < model.haptic->objects.size(); ++i)
-        EXPECT_EQ(numbers.haptic->objects[i].get(), model.haptic->objects[i].get()) << "geometry is shared";
-    const bool editable = std::ranges::any_of(
-        model.scene->materials, [](const Material& material) { return material.fileIndex >= 0; });
-    const auto count = static_cast<size_t>(test::repetitions(2, static_cast<int>(changes().size())));
-    for (size_t i = 0; i < count; ++i) {
-        const Change& change = changes()[(number + i * changes().size() / count) % changes().size()];
-        SCOPED_TRACE(change.what);
-        const MadeMaterials made =
-            expectTheSameWhenOpenedAgain(path, model, change.what, [&](HapticStatement& next, size_t m) {
-                change.change(next, *model.scene, m);
-            });
-        if (change.touch == Change::Touch::Either)
-            EXPECT_FALSE(made.read && made.touchGoesOn);
-        else
-            EXPECT_EQ(made.touchGoesOn, change.touch == Change::Touch::GoesOn || !editable);
+        EXPECT_EQ(made.haptic->objects[i].get(), model.haptic->objects[i].get()) << "geometry is shared";
+}
+
+void expectTheSameForMaps(const std::filesystem::path& path, const Model& model) {
+    const MadeMaterials made =
+        expectTheSameWhenOpenedAgain(path, model, "other maps", [&](HapticStatement& next, size_t m) {
+            const size_t t = m % model.scene->textures.size();
+            (void)setHapticField(next, *model.scene, "heightTexture", std::to_string(t));
+            (void)setHapticField(next, *model.scene, "stiffnessTexture", std::to_string(t));
+            (void)setHapticField(next, *model.scene, "stiffnessTexture.min", "0.5");
+        });
+    EXPECT_FALSE(made.read && made.touchGoesOn);
+}
+
+/// Numbers on every file, and other maps where it has textures. Of the other changes two, which the file's
+/// place in the list chooses; as a sweep all.
+void expectTheSameForChanges(const std::vector<std::filesystem::path>& files) {
+    const auto count = static_cast<size_t>(test::repetitions(2, static_cast<int>(kChanges.size())));
+    for (size_t file = 0; file < files.size(); ++file) {
+        const std::filesystem::path& path = files[file];
+        const Model model = modelOf(path);
+        expectTheSameForNumbers(path, model);
+        if (!model.scene->textures.empty())
+            expectTheSameForMaps(path, model);
+        const bool editable = std::ranges::any_of(
+            model.scene->materials, [](const Material& material) { return material.fileIndex >= 0; });
+        for (size_t i = 0; i < count; ++i) {
+            const Change& change = kChanges[(file * count + i) % kChanges.size()];
+            const MadeMaterials made = expectTheSameWhenOpenedAgain(
+                path, model, change.what, [&](HapticStatement& next, size_t) { change.change(next); });
+            EXPECT_EQ(made.touchGoesOn, change.touchGoesOn || !editable) << path << ", " << change.what;
+        }
     }
 }
 
 TEST(LiveMaterials, OurScenesFeelAsTheyWillWhenOpenedAgain) {
-    size_t files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_ASSETS)) {
-        if (entry.path().extension() != ".glb")
-            continue;
-        expectTheSameForChanges(entry.path(), files);
-        ++files;
-    }
-    EXPECT_GT(files, 5u);
+    const auto files = test::gltfFilesIn(TOUCHSTONE_ASSETS);
+    EXPECT_GT(files.size(), 5u);
+    expectTheSameForChanges(files);
 }
 
 TEST(LiveMaterials, RealModelsFeelAsTheyWillWhenOpenedAgain) {
@@ -172,8 +170,7 @@ TEST(LiveMaterials, RealModelsFeelAsTheyWillWhenOpenedAgain) {
         GTEST_SKIP() << test::kNoModels;
     const auto files = test::gltfFilesIn(*models);
     EXPECT_FALSE(files.empty());
-    for (size_t i = 0; i < files.size(); ++i)
-        expectTheSameForChanges(files[i], i);
+    expectTheSameForChanges(files);
 }
 
 TEST(LiveMaterials, ChangesOnTopOfChangesShareWhatTheyMay) {
