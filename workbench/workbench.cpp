@@ -4,6 +4,7 @@
 #include "workbench/workbench_window.h"
 
 #include <cstdio>
+#include <optional>
 
 namespace touchstone {
 
@@ -19,8 +20,8 @@ constexpr double kSoftwareError = 0.5;  // pixels, least tolerance of meshes tha
 constexpr const char* kMemoryFile = "window.json"; // in the state folder
 
 /// The size given on the command line, else that of the last run.
-glm::ivec2 firstSize(const glm::ivec2& asked, const glm::ivec2& remembered) {
-    return asked == WindowOptions{}.size && remembered.x > 0 ? remembered : asked;
+glm::ivec2 firstSize(const std::optional<glm::ivec2>& asked, const glm::ivec2& remembered) {
+    return asked ? *asked : remembered.x > 0 ? remembered : glm::ivec2(1280, 800);
 }
 
 std::vector<std::filesystem::path> recordingFolders(const RecordingOptions& options) {

@@ -109,7 +109,7 @@ void defineWindow(CLI::App& app, WindowOptions& options) {
     app.add_flag("--sound", options.sound, "Let the force be heard from the start");
     addStroke(app, options.stroke, "How the simulated hand strokes (listed at the end of --help) [tour]");
     addZoom(app, options.zoom);
-    addSize(app, "--size", options.size, "Size of the window [1280x800]");
+    addSize(app, "--size", options.size, "Size of the window [that of the last run; 1280x800]");
     addSize(app, "--picture-size", options.pictureSize,
             "Size of the pictures that F12 saves [as the window shows it]");
     app.add_option_function<std::string>(

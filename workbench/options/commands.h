@@ -39,7 +39,7 @@ struct WindowOptions {
     double zoom = 1.0;          ///< workspace metres for one metre of a device or the simulated hand
     std::string device;         ///< start with this device (devices/choice/device_choice.h); empty: none
     std::vector<std::string> otherDevices; ///< of the hands beside the first: devices, or "hand"
-    glm::ivec2 size{1280, 800};            ///< screen coordinates
+    std::optional<glm::ivec2> size;        ///< screen coordinates; none: that of the last run, or 1280x800
     float uiScale = 0.0f;             ///< beside the monitor's (figures/ui_scale.h); 0: that of the last run
     glm::ivec2 pictureSize{0};        ///< pixels of saved pictures; 0: as large as the window shows the model
     std::filesystem::path statusJson; ///< written twenty times a second if given

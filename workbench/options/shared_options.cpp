@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -122,18 +123,37 @@ std::string strokesHelp() {
     return text.str();
 }
 
-void addSize(CLI::App& app, const std::string& option, glm::ivec2& size, const std::string& meaning) {
+namespace {
+
+/// `set` takes the size that was parsed.
+void addSizeOption(CLI::App& app, const std::string& option,
+                   const std::function<void(const glm::ivec2&)>& set, const std::string& meaning) {
     app.add_option_function<std::string>(
            option,
-           [option, &size](const std::string& text) {
+           [option, set](const std::string& text) {
+               glm::ivec2 size{0};
                if (!parseSize(text, size))
                    throw CLI::ValidationError(option, "'" + text +
                                                           "' is not a size; write WIDTHxHEIGHT, 1.." +
                                                           std::to_string(kMaxSide) + " pixels each and " +
                                                           std::to_string(kMaxPixels) + " in all at most");
+               set(size);
            },
            meaning)
         ->type_name("WxH");
+}
+
+} // namespace
+
+void addSize(CLI::App& app, const std::string& option, glm::ivec2& size, const std::string& meaning) {
+    addSizeOption(
+        app, option, [&size](const glm::ivec2& given) { size = given; }, meaning);
+}
+
+void addSize(CLI::App& app, const std::string& option, std::optional<glm::ivec2>& size,
+             const std::string& meaning) {
+    addSizeOption(
+        app, option, [&size](const glm::ivec2& given) { size = given; }, meaning);
 }
 
 CLI::Option* addPicture(CLI::App& app, const std::string& option, std::filesystem::path& file,

@@ -26,6 +26,9 @@ inline constexpr const char* kExitHelp =
 
 /// A size, WxH pixels.
 void addSize(CLI::App& app, const std::string& option, glm::ivec2& size, const std::string& meaning);
+/// One that has no value where none is given.
+void addSize(CLI::App& app, const std::string& option, std::optional<glm::ivec2>& size,
+             const std::string& meaning);
 /// A picture to write, with an ending that names its format.
 CLI::Option* addPicture(CLI::App& app, const std::string& option, std::filesystem::path& file,
                         const std::string& meaning);

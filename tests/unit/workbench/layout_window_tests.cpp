@@ -176,6 +176,14 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
     EXPECT_EQ(later()["settings"]["friction"], "zilles");
     EXPECT_EQ(status()["settings"]["texture"], "off") << "kept from the run before";
     expectCleanEnd();
+    std::filesystem::remove(status_);
+    size_ = "1280x800"; // what a first run has; kept is 1000x780
+    open(kDoughnut);
+    EXPECT_NE(
+        display_.xdotool({"search", "--onlyvisible", "--name", "Touchstone", "getwindowgeometry", "--shell"})
+            .find("WIDTH=1280\nHEIGHT=800"),
+        std::string::npos);
+    expectCleanEnd();
 
     // A file that says nothing.
     std::ofstream(scratch_ / "state/touchstone/window.json") << "{ \"version\": 1, \"folded\": [";
