@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 namespace touchstone {
@@ -65,7 +66,10 @@ void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets) {
     const auto low = static_cast<float>(volume.low()), high = static_cast<float>(volume.high());
     if (widgets.slider("iso", "surface at", iso, {.low = low, .high = high, .clamp = true},
                        number(static_cast<double>(iso))))
-        iso = std::clamp(iso, std::nextafter(low, high), high); // at the lowest value there is no surface
+        // At the lowest value there is no surface, nor above it by less than a normal number: the servo takes
+        // that for zero (engine/core/float_mode.h).
+        iso = std::min(high,
+                       std::max({iso, std::nextafter(low, high), low + std::numeric_limits<float>::min()}));
     ImGui::PopItemWidth();
     const bool released = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
     if (iso != current && (released || (active && !input.loading && !input.typing))) {
