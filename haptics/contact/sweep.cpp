@@ -56,13 +56,21 @@ template <bool OneSided>
 [[gnu::always_inline]] inline double firstTouch(CandidateCache& cache, const glm::dvec3& p,
                                                 const glm::dvec3& move, double reach, double limit) noexcept {
     const std::span<CandidateCache::Approach> all = cache.approaching(p, move, limit, reach);
-    size_t left = all.size();
+    size_t left = all.size(), later = 0;
     const double parallel = kParallel * glm::length(move);
     while (left > 0) {
-        size_t next = 0;
-        for (size_t i = 1; i < left; ++i)
-            if (all[i].time < all[next].time)
-                next = i;
+        // Those before `later` come after the move's begin. One at the begin needs no search: where a proxy
+        // that comes through one-sided triangles passes thousands, searches among the rest would take
+        // thousands squared.
+        while (later < left && all[later].time > 0.0)
+            ++later;
+        size_t next = later;
+        if (later >= left) {
+            next = 0;
+            for (size_t i = 1; i < left; ++i)
+                if (all[i].time < all[next].time)
+                    next = i;
+        }
         CandidateCache::Approach& approach = all[next];
         const double time = approach.time;
         if (time >= limit)
