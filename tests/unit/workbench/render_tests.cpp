@@ -5,8 +5,6 @@
 #include "tests/support/program.h"
 #include "tests/unit/workbench/picture_size.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,39 +87,34 @@ class Render : public testing::Test {
         EXPECT_EQ(result.err, "");
         return readFile(scratch_ / "picture.png");
     }
-    /// Under a name of its own: OpenImageIO keeps the pixels of a file that it has read, and looks at the
-    /// time of a rewritten one by seconds.
-    OIIO::ImageBuf pixelsOf(const std::vector<std::string>& more) {
-        const std::string name = std::to_string(++pictures_) + ".png";
-        EXPECT_EQ(render(more, name).status, 0);
-        return OIIO::ImageBuf((scratch_ / name).string());
+    PixelData pixelsOf(const std::vector<std::string>& more) {
+        EXPECT_EQ(render(more).status, 0);
+        return readPicture(scratch_ / "picture.png");
     }
     /// Share of pixels that differ visibly.
     double difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-        const OIIO::ImageBuf first = pixelsOf(a), second = pixelsOf(b);
-        const auto result = OIIO::ImageBufAlgo::compare(first, second, 6.0f / 255.0f, 6.0f / 255.0f);
-        return static_cast<double>(result.nfail) / (160.0 * 120.0);
+        return failingShare(pixelsOf(a), pixelsOf(b));
     }
     /// Share of pixels of a picture that are in neither of two others.
     double inNeither(const std::vector<std::string>& whole, const std::vector<std::string>& a,
                      const std::vector<std::string>& b) {
-        const std::array<OIIO::ImageBuf, 3> pictures{pixelsOf(whole), pixelsOf(a), pixelsOf(b)};
+        const std::array<PixelData, 3> pictures{pixelsOf(whole), pixelsOf(a), pixelsOf(b)};
         int missed = 0;
         for (int y = 0; y < 120; ++y)
             for (int x = 0; x < 160; ++x) {
-                std::array<std::array<float, 4>, 3> at{};
-                for (size_t i = 0; i < 3; ++i)
-                    pictures[i].getpixel(x, y, at[i].data(), 4);
                 const auto same = [&](size_t i) {
-                    return std::ranges::equal(
-                        at[0], at[i], [](float u, float v) { return std::abs(u - v) < 7.0f / 255.0f; });
+                    bool all = true;
+                    for (int c = 0; c < 4; ++c)
+                        all = all && std::abs(pictures[0].value(x, y, c) - pictures[i].value(x, y, c)) <
+                                         7.0f / 255.0f;
+                    return all;
                 };
                 missed += same(1) || same(2) ? 0 : 1;
             }
         return missed / (160.0 * 120.0);
     }
     /// Four pictures a row.
-    static PixelData sheet(const std::vector<OIIO::ImageBuf>& pictures) {
+    static PixelData sheet(const std::vector<PixelData>& pictures) {
         constexpr int kColumns = 4, kWidth = 160, kHeight = 120;
         const int rows = (static_cast<int>(pictures.size()) + kColumns - 1) / kColumns;
         PixelData all{.width = kColumns * kWidth, .height = rows * kHeight, .channels = 4, .bytes = {}};
@@ -129,8 +122,9 @@ class Render : public testing::Test {
         for (size_t i = 0; i < pictures.size(); ++i) {
             const auto column = static_cast<int>(i) % kColumns, row = static_cast<int>(i) / kColumns;
             std::byte* const corner = all.bytes.data() + 4 * (row * kHeight * all.width + column * kWidth);
-            EXPECT_TRUE(pictures[i].get_pixels({0, kWidth, 0, kHeight, 0, 1, 0, 4}, OIIO::TypeDesc::UINT8,
-                                               corner, 4, 4 * all.width));
+            for (int y = 0; y < kHeight; ++y)
+                std::ranges::copy_n(pictures[i].bytes.begin() + 4 * y * kWidth, 4 * kWidth,
+                                    corner + 4 * y * all.width);
         }
         return all;
     }
@@ -143,7 +137,6 @@ class Render : public testing::Test {
     }
 
     ScratchFolder scratch_;
-    int pictures_ = 0;
     fs::path model_ = scratch_ / "corner.glb";
 };
 
@@ -196,10 +189,8 @@ TEST_F(Render, WritesJpegToo) {
     ASSERT_EQ(render({}, "picture.jpg").status, 0);
     EXPECT_EQ(readFile(scratch_ / "picture.jpg").substr(0, 3), "\xff\xd8\xff");
     ASSERT_EQ(render({}, "picture.png").status, 0);
-    const OIIO::ImageBuf jpeg((scratch_ / "picture.jpg").string()), png((scratch_ / "picture.png").string());
-    EXPECT_LT(
-        OIIO::ImageBufAlgo::compare(jpeg, OIIO::ImageBufAlgo::channels(png, 3, {}), 0.1f, 0.1f).meanerror,
-        0.02);
+    EXPECT_LT(meanDifference(readPicture(scratch_ / "picture.jpg"), readPicture(scratch_ / "picture.png"), 3),
+              0.02);
 }
 
 /// The same lens by the file and by hand is the same picture to the last byte, whichever way it is named.
@@ -249,7 +240,7 @@ TEST_F(Render, CamerasAgainstTheirGoldenPictures) {
                                                   placedWith({"--fov", "60"})};
     for (const char* side : {"default", "front", "back", "right", "left", "top", "bottom"})
         choices.push_back({"--from", side});
-    std::vector<OIIO::ImageBuf> pictures;
+    std::vector<PixelData> pictures;
     for (const std::vector<std::string>& choice : choices)
         pictures.push_back(pixelsOf(choice));
     constexpr double kMost = 0.0005; // of the sheet: 0.6 % of one picture
@@ -261,7 +252,7 @@ TEST_F(Render, CamerasAgainstTheirGoldenPictures) {
         {8, {"--from", "left"}},
     };
     for (const auto& [place, other] : mistakes) {
-        std::vector<OIIO::ImageBuf> wrong = pictures;
+        std::vector<PixelData> wrong = pictures;
         wrong[place] = pixelsOf(other);
         expectMutationIsSeen("render_cameras", other.back(), sheet(wrong), kMost);
     }
