@@ -55,7 +55,7 @@ int expectStrokes(const ScenePtr& scene, const std::string& name) {
         const double asked = std::min(info.depth, 0.1 * diagonal);
         const StrokePath path = layStroke(*scene, fit, {.name = std::string(info.name)});
         // An animation meets the stroke at another phase in every period: a minute of it in the sweep.
-        const double animated = repetitions(20, 60); // s
+        const double animated = repetitions(10, 60); // s
         const int periods =
             scene->animations.empty() ? 1 : 1 + static_cast<int>(std::ceil(animated / path.period()));
         const FeltStroke felt = feel(*haptic, path, scene, periods);
