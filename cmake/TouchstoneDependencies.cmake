@@ -14,6 +14,7 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/haptics/shape/mesh/embree_
 find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/output_file.h"
 #include "engine/image/image_codec.h"
+#include "renderer/png_encoding.h"
 
 #include <algorithm>
 #include <array>
@@ -15,11 +16,11 @@ namespace touchstone {
 namespace {
 
 struct PictureFormat {
-    std::string_view ending, writer; ///< of OpenImageIO
-    bool opaque;                     ///< 8 bit without alpha
+    std::string_view ending;
+    bool jpeg; ///< 8 bit without alpha; else PNG
 };
-constexpr std::array kFormats{PictureFormat{".png", "png", false}, PictureFormat{".jpg", "jpeg", true},
-                              PictureFormat{".jpeg", "jpeg", true}};
+constexpr std::array kFormats{PictureFormat{".png", false}, PictureFormat{".jpg", true},
+                              PictureFormat{".jpeg", true}};
 constexpr const char* kRemedy = "end its name in .png, .jpg or .jpeg";
 
 const PictureFormat* formatOf(const std::filesystem::path& file) {
@@ -40,26 +41,20 @@ std::vector<std::byte> withoutAlpha(const PixelData& pixels) {
     return rgb;
 }
 
-/// The bytes of the file. In memory, so that one place writes files and cleans up behind itself.
-std::vector<unsigned char> encoded(const std::filesystem::path& file, const PictureFormat& format,
-                                   const PixelData& pixels) {
+std::vector<unsigned char> encodeJpeg(const std::filesystem::path& file, const PixelData& pixels) {
     std::string problem;
     const ImageCodec* codec = imageCodec(problem);
     if (codec == nullptr)
         throw Error(file.string(), "", problem, "");
-    const std::vector<std::byte> rgb = format.opaque ? withoutAlpha(pixels) : std::vector<std::byte>();
-    ImageToEncode image{.format = std::string(format.writer),
-                        .width = pixels.width,
-                        .height = pixels.height,
-                        .channels = format.opaque ? 3 : pixels.channels,
-                        .type = pixels.type,
-                        .pixels = format.opaque ? rgb.data() : pixels.bytes.data(),
-                        // Alpha is straight; without this attribute the writer would divide by it.
-                        .numbers = {{"oiio:UnassociatedAlpha", 1}, {"png:compressionLevel", 6}},
-                        .texts = {{"oiio:ColorSpace", "sRGB"}}};
-    if (format.opaque)
-        image.texts.emplace_back("Compression", "jpeg:95");
-    EncodedImage result = codec->encode(image);
+    const std::vector<std::byte> rgb = withoutAlpha(pixels);
+    EncodedImage result = codec->encode({.format = "jpeg",
+                                         .width = pixels.width,
+                                         .height = pixels.height,
+                                         .channels = 3,
+                                         .type = pixels.type,
+                                         .pixels = rgb.data(),
+                                         .numbers = {},
+                                         .texts = {{"oiio:ColorSpace", "sRGB"}, {"Compression", "jpeg:95"}}});
     if (!result.problem.empty())
         throw Error(file.string(), "", result.problem, "");
     return std::move(result.bytes);
@@ -77,10 +72,10 @@ void writePicture(const std::filesystem::path& file, const PixelData& pixels) {
     if (format == nullptr)
         throw Error(file.string(), "", "its ending names no picture", kRemedy);
     if (pixels.width <= 0 || pixels.height <= 0 || pixels.type == ComponentType::F32 ||
-        (format->opaque && pixels.type != ComponentType::U8))
+        (format->jpeg && pixels.type != ComponentType::U8))
         throw Error(file.string(), "", "there is no picture to write that its format holds", "");
     // Encoded first: a process that is ended meanwhile leaves nothing.
-    const std::vector<unsigned char> bytes = encoded(file, *format, pixels);
+    const std::vector<unsigned char> bytes = format->jpeg ? encodeJpeg(file, pixels) : encodePng(pixels);
     OutputFile output(file);
     output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     output.commit();

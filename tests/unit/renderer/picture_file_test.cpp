@@ -5,8 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace touchstone {
 namespace {
@@ -48,6 +53,35 @@ TEST_F(PictureFile, ReadsBackUnchangedWithTransparency) {
     ASSERT_TRUE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, read.data()));
     EXPECT_EQ(read, pixels.bytes);
     EXPECT_EQ(filesInFolder(), 1u) << "no temporary file is left";
+}
+
+/// Of every number of channels, in both depths.
+TEST_F(PictureFile, PngHoldsEveryChannelAsItIs) {
+    std::mt19937 random(7);
+    for (const ComponentType type : {ComponentType::U8, ComponentType::U16})
+        for (int channels = 1; channels <= 4; ++channels)
+            for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 2}}) {
+                PixelData pixels{
+                    .width = width, .height = height, .channels = channels, .type = type, .bytes = {}};
+                const size_t bytes =
+                    static_cast<size_t>(width * height * channels) * (type == ComponentType::U8 ? 1 : 2);
+                std::generate_n(std::back_inserter(pixels.bytes), bytes,
+                                [&] { return static_cast<std::byte>(random()); });
+                writePicture(folder_ / "any.png", pixels);
+                OIIO::ImageSpec config;
+                config.attribute("oiio:UnassociatedAlpha", 1);
+                const auto input = OIIO::ImageInput::open((folder_ / "any.png").string(), &config);
+                ASSERT_TRUE(input);
+                EXPECT_EQ(std::pair(input->spec().width, input->spec().height), std::pair(width, height));
+                ASSERT_EQ(input->spec().nchannels, channels);
+                EXPECT_EQ(input->spec().get_string_attribute("oiio:ColorSpace"), "sRGB");
+                const OIIO::TypeDesc stored =
+                    type == ComponentType::U8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+                ASSERT_EQ(input->spec().format, stored);
+                std::vector<std::byte> read(bytes);
+                ASSERT_TRUE(input->read_image(0, 0, 0, channels, stored, read.data()));
+                EXPECT_EQ(read, pixels.bytes) << channels << " channels";
+            }
 }
 
 TEST_F(PictureFile, MissingFolderNamesFileAndRemedy) {
