@@ -72,21 +72,19 @@ endfunction()
 touchstone_headers(independent_headers common.h glm::glm)
 touchstone_independent(touchstone_independent_headers)
 
-# touchstone_outer(TARGET...): code that waits for people, files and pictures, and holds no copy of what a tick computes. In a Release build
-# at -O1: three quarters of the time to compile at -O3. (A linker keeps one copy of an inline function, of any object: none of a tick may be
-# among these.)
-touchstone_headers(outer_headers common.h glm::glm)
-function(touchstone_outer)
-    touchstone_precompile(outer_headers ${ARGN})
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
-        foreach(target ${ARGN})
-            target_compile_options(${target} PRIVATE -O1)
-        endforeach()
-    endif()
-endfunction()
-if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(touchstone_outer_headers PRIVATE -O1)
+# touchstone_watched(TARGET...): under the thread sanitizer, in a build that is not sanitized (tests/threads).
+if(NOT TOUCHSTONE_SANITIZE)
+    add_library(touchstone_watched_flags INTERFACE)
+    target_compile_options(touchstone_watched_flags INTERFACE -O1 -g1 -fsanitize=thread -fno-omit-frame-pointer)
+    target_link_options(touchstone_watched_flags INTERFACE -fsanitize=thread)
+    touchstone_headers(watched_headers common.h glm::glm touchstone_watched_flags)
 endif()
+function(touchstone_watched)
+    foreach(target ${ARGN})
+        target_link_libraries(${target} PUBLIC touchstone_flags touchstone_watched_flags)
+        touchstone_precompile(watched_headers ${target})
+    endforeach()
+endfunction()
 
 # touchstone_rooms(TARGET SOURCES...): in a unity build the files of a room are compiled together, twelve at most, so that
 # a new file concerns the names of its own room alone.

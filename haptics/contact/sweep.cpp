@@ -59,9 +59,9 @@ template <bool OneSided>
     size_t left = all.size(), later = 0;
     const double parallel = kParallel * glm::length(move);
     while (left > 0) {
-        // Those before `later` come after the move's begin. One at the begin needs no search: where a proxy
-        // that comes through one-sided triangles passes thousands, searches among the rest would take
-        // thousands squared.
+        // All before `later` come after the start of the move. One at the start is the earliest and needs no
+        // search. A proxy that comes through one-sided triangles passes thousands of them there: a search for
+        // each takes quadratic time.
         while (later < left && all[later].time > 0.0)
             ++later;
         size_t next = later;

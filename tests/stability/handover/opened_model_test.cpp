@@ -114,6 +114,7 @@ void expectNoForceBeforeTheHandHasLeft(const std::vector<std::filesystem::path>&
                                        const std::vector<ContactMethod>& methods) {
     const TouchedScene doughnut = fitted(TOUCHSTONE_ASSETS "/doughnut.glb"),
                        swatches = fitted(TOUCHSTONE_ASSETS "/swatches.glb");
+    const int step = kPlaces / repetitions(5, kPlaces);
     int cases = 0, touched = 0, tooEarly = 0;
     for (const std::filesystem::path& file : opened) {
         const TouchedScene after = fitted(file);
@@ -126,7 +127,7 @@ void expectNoForceBeforeTheHandHasLeft(const std::vector<std::filesystem::path>&
             HapticSettings settings;
             settings.contact = method;
             for (const TouchedScene* before : {&doughnut, &swatches})
-                for (int i = 0; i < kPlaces; i += repetitions(2, 1)) {
+                for (int i = 0; i < kPlaces; i += step) {
                     const std::optional<SurfacePick> place = placeOn(*before->haptic, i);
                     if (!place)
                         continue;

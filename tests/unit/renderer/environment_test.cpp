@@ -1,16 +1,16 @@
 // Panoramas as light: directions, irradiance and blurs.
 
-#include "engine/core/error.h"
 #include "renderer/environment.h"
-#include "tests/support/gltf_maker.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <functional>
-#include <limits>
+#include <vector>
 
 namespace touchstone {
 namespace {

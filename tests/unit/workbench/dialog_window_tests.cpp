@@ -85,6 +85,7 @@ TEST_F(DialogWindow, EscapePutsAwayTheHelpOverTheBrowserFirst) {
 }
 
 TEST_F(DialogWindow, AMeshIsDroppedAndSavedAsAGlb) {
+    size_ = kTall;
     open(TOUCHSTONE_ASSETS "/box.glb");
     display_.drop("Touchstone", scratch_ / "Ring.STL");
     until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });

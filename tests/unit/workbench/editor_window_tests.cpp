@@ -11,6 +11,7 @@ namespace {
 
 class EditorWindow : public WindowTest {
   protected:
+    EditorWindow() { size_ = kTall; }
     /// A copy of the doughnut with another friction.
     void edit() {
         std::filesystem::copy_file(TOUCHSTONE_ASSETS "/doughnut.glb", model_);

@@ -182,6 +182,7 @@ TEST_F(KeysTest, TheForceKeyWorksWhateverHasTheFocus) {
 }
 
 TEST_F(KeysTest, TheForceKeyWorksInTheMaterialEditor) {
+    size_ = kTall;
     const std::filesystem::path model = scratch_ / "doughnut.glb";
     std::filesystem::copy_file(kDoughnut, model);
     open(model.string(), {"--hand", "simulated"});

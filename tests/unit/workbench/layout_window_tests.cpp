@@ -20,6 +20,7 @@ const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
 
 class LayoutTest : public WindowTest {
   protected:
+    LayoutTest() { size_ = kTall; }
     /// The figures look back on some seconds: waits until they hold nothing of before.
     Json settled(const std::function<bool(const Json&)>& holds) {
         std::this_thread::sleep_for(std::chrono::seconds(5));

@@ -20,6 +20,7 @@ const std::string kEffects = TOUCHSTONE_ASSETS "/effects.glb";
 
 class PartWindowTest : public WindowTest {
   protected:
+    PartWindowTest() { size_ = kTall; }
     static bool touching(const Json& s) { return s["recent"]["mean_force_n"] > 0.2; }
     static bool inTheAir(const Json& s) { return s["recent"]["in_contact"] == false; }
     void viewMenu() {

@@ -89,7 +89,13 @@ class Render : public testing::Test {
     }
     PixelData pixelsOf(const std::vector<std::string>& more) {
         EXPECT_EQ(render(more).status, 0);
-        return readPicture(scratch_ / "picture.png");
+        PixelData pixels = readPicture(scratch_ / "picture.png");
+        if (pixels.width != 160 || pixels.height != 120 || pixels.channels != 4) {
+            ADD_FAILURE() << "a picture of another size";
+            pixels = {.width = 160, .height = 120, .channels = 4, .bytes = {}};
+            pixels.bytes.assign(size_t{4} * 160 * 120, std::byte{0});
+        }
+        return pixels;
     }
     /// Share of pixels that differ visibly.
     double difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {

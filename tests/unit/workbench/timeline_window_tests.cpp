@@ -276,6 +276,7 @@ TEST_F(TimelineWindow, WhatIsBrokenOrHasLostItsModelIsToldAndNothingElseChanges)
 }
 
 TEST_F(TimelineWindow, UnsavedMaterialsAreAskedForBeforeItsModelIsOpened) {
+    size_ = kTall;
     touchOffline(TOUCHSTONE_ASSETS "/box.glb", scratch_ / "r.tsrec");
     open(kDoughnut);
     display_.key("e");

@@ -131,7 +131,9 @@ class WindowTest : public testing::Test {
 
     ScratchFolder scratch_;
     std::filesystem::path status_ = scratch_ / "status.json";
-    std::string size_ = "1000x780"; ///< of the window
+    /// Where a whole list of sliders is seen.
+    static constexpr const char* kTall = "1000x780";
+    std::string size_ = "900x600"; ///< of the window: the CPU draws it
     VirtualDisplay display_{1280, 800};
     Environment environment_; ///< of the program, besides what all have
     std::unique_ptr<BackgroundProgram> program_;
