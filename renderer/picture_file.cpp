@@ -71,11 +71,15 @@ void writePicture(const std::filesystem::path& file, const PixelData& pixels) {
     const PictureFormat* format = formatOf(file);
     if (format == nullptr)
         throw Error(file.string(), "", "its ending names no picture", kRemedy);
-    if (pixels.width <= 0 || pixels.height <= 0 || pixels.type == ComponentType::F32 ||
+    if (pixels.width <= 0 || pixels.height <= 0 || pixels.bytes.empty() || pixels.channels < 1 ||
+        pixels.channels > 4 || pixels.type == ComponentType::F32 ||
         (format->jpeg && pixels.type != ComponentType::U8))
         throw Error(file.string(), "", "there is no picture to write that its format holds", "");
     // Encoded first: a process that is ended meanwhile leaves nothing.
     const std::vector<unsigned char> bytes = format->jpeg ? encodeJpeg(file, pixels) : encodePng(pixels);
+    if (bytes.empty())
+        throw Error(file.string(), "", "it is too large a picture for the memory or for PNG",
+                    "choose a smaller size");
     OutputFile output(file);
     output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     output.commit();

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <csetjmp>
-#include <new>
 
 namespace touchstone {
 
@@ -15,13 +14,13 @@ constexpr int kCompression = 6;
 constexpr std::array kColourTypes{PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                   PNG_COLOR_TYPE_RGB_ALPHA};
 
-// libpng is C: no exception passes through it. Its errors, here lack of memory alone, jump to `write`.
+// libpng is C: no exception passes through it. Its errors jump to `write`.
 void append(png_structp png, png_bytep data, png_size_t size) {
     auto& bytes = *static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
     bool taken = true;
     try {
         bytes.insert(bytes.end(), data, data + size);
-    } catch (const std::bad_alloc&) {
+    } catch (...) {
         taken = false;
     }
     if (!taken)
@@ -33,18 +32,23 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 }
 
 void ignore(png_structp, png_const_charp) {}
+void flush(png_structp) {}
 
 /// No object with a destructor lives here, since an error jumps over it.
 bool write(const PixelData& pixels, std::vector<unsigned char>& bytes) noexcept {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump, ignore);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    if (info == nullptr) {
+        png_destroy_write_struct(&png, nullptr);
+        return false;
+    }
+    if (setjmp(png_jmpbuf(png)) != 0) {
         png_destroy_write_struct(&png, &info);
         return false;
     }
     const size_t component = pixels.type == ComponentType::U16 ? 2 : 1;
     const size_t row = static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.channels) * component;
-    png_set_write_fn(png, &bytes, append, nullptr);
+    png_set_write_fn(png, &bytes, append, flush);
     png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height),
                  static_cast<int>(8 * component), kColourTypes[static_cast<size_t>(pixels.channels - 1)],
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -66,7 +70,7 @@ bool write(const PixelData& pixels, std::vector<unsigned char>& bytes) noexcept 
 std::vector<unsigned char> encodePng(const PixelData& pixels) {
     std::vector<unsigned char> bytes;
     if (!write(pixels, bytes))
-        throw std::bad_alloc();
+        bytes.clear();
     return bytes;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // What the program knows of touchstone_images.so, the one part that links OpenImageIO: 260 shared libraries,
-// 0.15 s of every start, which a model without images does not need.
+// 0.2 s of every start, which a model without images does not need.
 
 #include "engine/scene/image.h"
 

@@ -18,8 +18,8 @@ inline constexpr float kPixelTolerance = 6.0f / 255.0f;
 /// Share of failing pixels between two pictures; 1 where their sizes or channels differ.
 [[nodiscard]] double failingShare(const PixelData& a, const PixelData& b);
 
-/// Mean difference of the first `channels` channels of two pictures, 0..1; 1, and a failure of the test,
-/// where their sizes differ.
+/// Mean difference of the first `channels` channels of two pictures, 0..1. 1, and a failure of the test,
+/// where their sizes differ, they have fewer channels, or no pixels.
 [[nodiscard]] double meanDifference(const PixelData& a, const PixelData& b, int channels);
 
 } // namespace touchstone::test

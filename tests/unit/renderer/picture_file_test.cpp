@@ -84,6 +84,15 @@ TEST_F(PictureFile, PngHoldsEveryChannelAsItIs) {
             }
 }
 
+TEST_F(PictureFile, WhatLibpngRefusesIsAnErrorAndLeavesNothing) {
+    PixelData wide{.width = 1'000'001, .height = 1, .channels = 1, .bytes = {}};
+    wide.bytes.resize(1'000'001);
+    EXPECT_THROW(writePicture(folder_ / "wide.png", wide), Error);
+    PixelData five{.width = 1, .height = 1, .channels = 5, .bytes = std::vector<std::byte>(5)};
+    EXPECT_THROW(writePicture(folder_ / "five.png", five), Error);
+    EXPECT_EQ(filesInFolder(), 0u);
+}
+
 TEST_F(PictureFile, MissingFolderNamesFileAndRemedy) {
     try {
         writePicture(folder_ / "nowhere" / "picture.png", gradient());

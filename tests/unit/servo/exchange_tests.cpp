@@ -1,4 +1,4 @@
-// Two threads against each other; the thread sanitizer (preset tsan) watches the same tests.
+// Two threads against each other; the thread sanitizer (Threads.exchange) watches the same tests.
 
 #include "engine/exchange/handover.h"
 #include "engine/exchange/record_ring.h"

@@ -1,5 +1,5 @@
-// The loop against a synthetic port; the thread sanitizer (preset tsan) watches the same tests. No test here
-// asserts a time: machines stall.
+// The loop against a synthetic port; the thread sanitizer (Threads.exchange) watches the same tests. No test
+// here asserts a time: machines stall.
 
 #include "engine/core/error.h"
 #include "engine/core/float_mode.h"

@@ -1,5 +1,6 @@
 // Edits of every kind that come faster than they are made: what is published is what its journal says.
 
+#include "engine/load/scene_loader.h"
 #include "engine/scene/scene.h"
 #include "haptics/scene/haptic_scene.h"
 #include "tests/unit/session/sculpting_hand.h"

@@ -56,6 +56,7 @@ TEST_F(WindowTest, ADevicePluggedInWhileRunningIsHeldUnpluggedAndLetGo) {
 /// The mouse presses while a simulated hand strokes: each has its probe, its force and its line in the panel,
 /// and the force key takes both forces.
 TEST_F(WindowTest, TwoHandsTouchAtOnce) {
+    size_ = kTall;
     open(TOUCHSTONE_ASSETS "/box.glb", {"--device", "mouse", "--device", "hand"});
     const Json alone = until("the second hand to touch", [](const Json& s) {
         const Json& other = s["other_hands"][0];
