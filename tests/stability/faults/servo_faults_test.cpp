@@ -175,16 +175,21 @@ TEST_F(ServoFaults, ScenesSwappedInContact) {
     for (int i = 0; i < 8; ++i) {
         rig.offer(floorOf(i % 2 == 0 ? 0.1f : -0.02f, 3000.0f));
         rig.ticks(120);
-        const size_t before = rig.inContact();
         rig.offer(i % 3 == 0 ? moving : doughnut_);
+        // The floor may be touched until the scene is taken, where a late test lets the hand go so far.
+        const auto touched = [&rig] {
+            return std::ranges::count_if(rig.records, [&rig](const TickRecord& record) {
+                return record.scene == rig.scenes.size() && record.output.contacts > 0;
+            });
+        };
         rig.ticks(60);
-        EXPECT_EQ(rig.inContact(), before) << "not left yet";
+        EXPECT_EQ(touched(), 0) << "not left yet";
         lifted = true;
         rig.ticks(60);
         lifted = false;
         rig.ticks(250);
         if (i % 3 != 0) {
-            EXPECT_GT(rig.inContact(), before + 30);
+            EXPECT_GT(touched(), 30);
         }
     }
     expectSound(rig);
