@@ -9,7 +9,7 @@ namespace touchstone {
 
 CandidateCache::CandidateCache()
     : items_(kCapacity), bounds_(kCapacity / kBlock), approaches_(kCapacity), found_(kCapacity),
-      pool_(kCapacity + kMaxKept), free_(pool_.size() + 1), freeCount_(pool_.size()) {
+      turns_(kCapacity), pool_(kCapacity + kMaxKept), free_(pool_.size() + 1), freeCount_(pool_.size()) {
     for (size_t i = 0; i < pool_.size(); ++i)
         free_[i] = static_cast<uint32_t>(pool_.size() - 1 - i);
 }
@@ -18,6 +18,11 @@ void CandidateCache::prepare(Candidate& item) noexcept {
     item.prepared = free_[--freeCount_];
     Prepared& made = pool_[item.prepared];
     made.triangle = triangleAt(*item.source, item.place, item.index);
+    if (item.turn != Candidate::kInPlace) [[unlikely]] {
+        const Similarity& turn = turns_[item.turn];
+        made.triangle =
+            Triangle(turn.point(made.triangle.a), turn.point(made.triangle.b), turn.point(made.triangle.c));
+    }
     made.at = glm::dvec3(NAN);
 }
 
@@ -89,6 +94,7 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
         item.index = n.triangle;
         item.place = n.place;
         item.measured = 0;
+        item.turn = foreign ? static_cast<uint32_t>(turnCount_) : Candidate::kInPlace;
         item.prepared = keptCount_ > 0 ? takeKept(index, n.triangle) : Candidate::kUnprepared;
         retaken_[retakenCount_] = static_cast<uint16_t>(count_);
         retakenCount_ += item.prepared != Candidate::kUnprepared ? 1 : 0;
@@ -96,20 +102,17 @@ bool CandidateCache::gatherObject(const HapticObject& object, int index,
         setBound(count_, local, distance - doubt, glm::dvec3(n.away) * (1.0 / std::max(distance, 1e-30)));
         ++count_;
     }
-    if (foreign)
-        turnIntoReference(before, objectFromReference->inverse());
+    if (foreign && near > 0) {
+        turns_[turnCount_] = objectFromReference->inverse();
+        turnBounds(before, turns_[turnCount_++]);
+    }
     return true;
 }
 
-/// Transforms the items from `first` on from their own object's frame into the reference object frame.
-void CandidateCache::turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept {
+/// Transforms the bounds from `first` on from their own object's frame into the reference object frame; a
+/// triangle is turned when it is prepared.
+void CandidateCache::turnBounds(size_t first, const Similarity& referenceFromObject) noexcept {
     for (size_t i = first; i < count_; ++i) {
-        Candidate& item = items_[i];
-        if (item.prepared == Candidate::kUnprepared) {
-            Triangle& triangle = prepared(item).triangle;
-            triangle = Triangle(referenceFromObject.point(triangle.a), referenceFromObject.point(triangle.b),
-                                referenceFromObject.point(triangle.c));
-        }
         // distance >= offset + g . p, with p in the reference object frame.
         Block& block = bounds_[i / kBlock];
         const size_t k = i % kBlock;

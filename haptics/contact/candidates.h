@@ -24,12 +24,14 @@ namespace touchstone {
 /// One triangle near the proxy.
 struct Candidate {
     static constexpr uint32_t kUnprepared = UINT32_MAX;
+    static constexpr uint32_t kInPlace = UINT32_MAX;
     const HapticObject* source = nullptr;
     int object = -1;                 ///< HapticScene::objects
     uint32_t index = 0;              ///< triangle of that object
     uint32_t place = 0;              ///< of its corners, TriangleTree::Near::place
     uint32_t prepared = kUnprepared; ///< in CandidateCache::pool_
     uint32_t measured = 0;           ///< CandidateCache::place_ when its distance was last evaluated
+    uint32_t turn = kInPlace;        ///< in CandidateCache::turns_; of the reference object: kInPlace
 };
 
 /// `items` holds every triangle that meets the ball (centre, radius), `shapes` every other shape; only these
@@ -236,6 +238,7 @@ class CandidateCache {
     void clear() noexcept {
         valid_ = false;
         count_ = 0;
+        turnCount_ = 0;
         shapes_.clear();
     }
     void keepPrepared() noexcept;
@@ -245,7 +248,7 @@ class CandidateCache {
     static size_t keptSlot(int object, uint32_t index) noexcept {
         return (index * 2654435761u + static_cast<uint32_t>(object) * 40503u) >> (32 - kKeptBits);
     }
-    void turnIntoReference(size_t first, const Similarity& referenceFromObject) noexcept;
+    void turnBounds(size_t first, const Similarity& referenceFromObject) noexcept;
     bool gatherObject(const HapticObject& object, int index, const Similarity* objectFromReference,
                       const glm::dvec3& centre, double radius) noexcept;
 
@@ -268,6 +271,8 @@ class CandidateCache {
     std::vector<TriangleTree::Near> found_; ///< of one object
     TriangleTree::Ahead ahead_;
     const TriangleTree* aheadOf_ = nullptr; ///< where anything waits in it
+    std::vector<Similarity> turns_;         ///< reference from object, of the other objects in the ball
+    size_t turnCount_ = 0;
     std::vector<Prepared> pool_;
     std::vector<uint32_t> free_; ///< of the pool, a stack: those used last come first
     size_t freeCount_ = 0;

@@ -1,10 +1,16 @@
-// The tick's contract: it allocates nothing, whatever happens to it.
+// The tick's contract: it allocates nothing, whatever happens to it, and what it gathers is bounded.
 
 #include "tests/support/allocation_counter.h"
 #include "tests/support/strokes.h"
 #include "tests/support/touch_bench.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
 
 namespace touchstone::test::real_time_test {
 namespace {
@@ -26,6 +32,70 @@ TEST(RealTime, TheTickAllocatesNothing) {
         const uint64_t after = allocationsOnThisThread();
         EXPECT_EQ(after - before, 0u);
         EXPECT_GT(touching, 1000);
+    }
+}
+
+/// Two plates side by side, 200 triangles on a square millimetre: within 0.3 radii of a proxy of 4 mm that
+/// rests on them lie 6,000. Each move of a tick may gather what is near.
+TEST(RealTime, ABigProxyOnADenseMeshGathersLittle) {
+    constexpr double kWidth = 0.02, kRadius = 4e-3, kDepth = 1e-3;
+    const assets::Shape plate = assets::plane(kWidth, kWidth, 200, 200);
+    Scene scene = sceneOf(plate);
+    addShape(scene, plate, glm::translate(glm::dmat4(1.0), {kWidth, 0.0, 0.0}));
+    HapticSettings settings;
+    settings.proxyRadius = kRadius;
+    settings.forceShading = ShadingMode::Off;
+    settings.friction = FrictionMode::Off;
+    TouchBench bench(scene, settings);
+    const double hip = kRadius - kDepth;
+    bench.moveTo({0.0, 3.0 * kRadius, 0.0}, 0.1);
+    bench.moveTo({0.0, hip, 0.0}, 0.1);
+    size_t most = 0;
+    int ticks = 0;
+    bench.moveTo({kWidth, hip, 1e-3}, 0.1, [&](const HapticOutput& output) {
+        ++ticks;
+        if (ticks > 20) // the ball of the flight shrinks by halves
+            most = std::max(most, bench.state[0].candidates.count());
+        ASSERT_NEAR(output.proxy.y, kRadius, 1e-8) << "tick " << ticks;
+        ASSERT_GT(output.contacts, 0u);
+    });
+    EXPECT_GT(ticks, 150);
+    EXPECT_GT(most, 10u);
+    EXPECT_LT(most, 400u);
+}
+
+/// Facets that all meet in the middle of a disc in the plane y = 0, facing +y.
+assets::Shape fan(uint32_t facets, double radius) {
+    assets::Shape shape;
+    shape.positions.emplace_back(0.0f);
+    for (uint32_t i = 0; i < facets; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / facets;
+        shape.positions.emplace_back(glm::dvec3(radius * std::cos(angle), 0.0, radius * std::sin(angle)));
+        shape.indices.insert(shape.indices.end(), {0, 1 + (i + 1) % facets, 1 + i});
+    }
+    return shape;
+}
+
+/// However small the ball about a vertex is, it holds all its facets. While the hand rests there, it shrinks.
+TEST(RealTime, AHandThatRestedOnAVertexOfManyFacetsIsFollowed) {
+    for (const uint32_t facets : {100u, 300u, 1000u, 3000u}) {
+        for (const double radius : {0.0, 0.5e-3, 4e-3}) {
+            SCOPED_TRACE(std::to_string(facets) + " facets, radius " + std::to_string(radius));
+            HapticSettings settings;
+            settings.proxyRadius = radius;
+            settings.forceShading = ShadingMode::Off;
+            settings.friction = FrictionMode::Off;
+            TouchBench bench(sceneOf(fan(facets, 0.02)), settings);
+            const double hip = radius - 1e-3;
+            bench.moveTo({0.0, radius + 5e-3, 0.0}, 0.1);
+            bench.moveTo({0.0, hip, 0.0}, 0.1);
+            for (int i = 0; i < 300; ++i)
+                bench.step({0.0, hip, 0.0});
+            bench.moveTo({5e-3, hip, 1e-3}, 0.1, [&](const HapticOutput& output) {
+                ASSERT_NEAR(output.proxy.x, output.hip.x, 1e-7);
+                ASSERT_NEAR(output.proxy.y, radius, 1e-7);
+            });
+        }
     }
 }
 
