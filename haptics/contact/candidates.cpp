@@ -220,14 +220,20 @@ bool CandidateCache::passesOneSided(size_t i, const glm::dvec3& p, double distan
     if (!(height > 0.0) || distance < clear)
         return true;
     // A proxy straight above a triangle stands on it, whatever else it is coming through.
-    if (height >= clear)
-        return false;
-    bool comingThrough = false;
+    return height < clear && comesThrough(items_[i].object, p, clear);
+}
+
+/// True if p is nearer than `clear` to a triangle of the object. Thousands of triangles may ask this at one
+/// place, and get one answer.
+bool CandidateCache::comesThrough(int object, const glm::dvec3& p, double clear) noexcept {
+    if (coming_.object == object && coming_.place == p && coming_.clear == clear)
+        return coming_.through;
+    bool through = false;
     eachNear(p, clear, [&](size_t k) {
-        comingThrough = comingThrough ||
-                        (items_[k].object == items_[i].object && distanceTo(triangle(k), p).distance < clear);
+        through = through || (items_[k].object == object && distanceTo(triangle(k), p).distance < clear);
     });
-    return comingThrough;
+    coming_ = {.object = object, .through = through, .clear = clear, .place = p};
+    return through;
 }
 
 double CandidateCache::clearanceAt(const glm::dvec3& p, double reach) noexcept {

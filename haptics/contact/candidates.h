@@ -221,6 +221,7 @@ class CandidateCache {
 
   private:
     [[nodiscard]] bool passesOneSided(size_t i, const glm::dvec3& p, double distance, double reach) noexcept;
+    [[nodiscard]] bool comesThrough(int object, const glm::dvec3& p, double clear) noexcept;
     template <class SphereOf>
     bool gatherAll(std::span<const std::shared_ptr<const HapticObject>> objects, ObjectMotions poses,
                    const SphereOf& sphereOf, int reference, const glm::dvec3& centre, double radius,
@@ -239,6 +240,7 @@ class CandidateCache {
         valid_ = false;
         count_ = 0;
         turnCount_ = 0;
+        coming_.object = -1;
         shapes_.clear();
     }
     void keepPrepared() noexcept;
@@ -296,7 +298,14 @@ class CandidateCache {
     double radius_ = 0.0;
     bool valid_ = false, oneSided_ = false;
     double standing_ = INFINITY; ///< standsClearBy
-    uint32_t place_ = 1;         ///< counts the proxy's places
+    /// The last answer of comesThrough; object -1: none. Holds until the next gather.
+    struct {
+        int object = -1;
+        bool through = false;
+        double clear = 0.0;
+        glm::dvec3 place{0.0};
+    } coming_;
+    uint32_t place_ = 1; ///< counts the proxy's places
 };
 
 } // namespace touchstone
