@@ -11,6 +11,12 @@ struct ObjectMotion {
     Similarity workspaceFromObject;
     Similarity before;
     bool jumped = false; ///< it was placed here and did not move here from `before`
+
+    [[nodiscard]] bool moves() const {
+        return !jumped &&
+               (before.translation != workspaceFromObject.translation ||
+                before.rotation != workspaceFromObject.rotation || before.scale != workspaceFromObject.scale);
+    }
 };
 
 /// Index = HapticScene::objects.

@@ -33,9 +33,9 @@ struct Found {
     }
 };
 
-template <bool OneSided>
-[[gnu::always_inline]] inline void addTriangles(CandidateCache& cache, const glm::dvec3& p, double radius,
-                                                double within, Found& found) noexcept {
+template <bool OneSided, class Visitor>
+[[gnu::always_inline]] inline void visitTriangles(CandidateCache& cache, const glm::dvec3& p, double radius,
+                                                  double within, Visitor& found) noexcept {
     const double reach = radius + within;
     cache.eachNear(p, reach, [&](size_t i) {
         const TriangleDistance d = cache.measure(i, p);
@@ -52,16 +52,36 @@ template <bool OneSided>
 /// Out of line: code that a scene may not need must not take registers from code that it needs.
 [[gnu::noinline]] void addOneSidedTriangles(CandidateCache& cache, const glm::dvec3& p, double radius,
                                             double within, Found& found) noexcept {
-    addTriangles<true>(cache, p, radius, within, found);
+    visitTriangles<true>(cache, p, radius, within, found);
+}
+
+template <class Visitor>
+bool visitShapes(const NearShapes& shapes, const glm::dvec3& p, double radius, double within,
+                 Visitor& found) noexcept {
+    return shapes.eachNear(p, radius + within, [&](int object, const FeatureDistance& d) {
+        found.add(d.gradient, d.closest, d.distance - radius, object, d.feature, Contact::kNoCandidate);
+    });
 }
 
 [[gnu::noinline]] void addShapes(const NearShapes& shapes, const glm::dvec3& p, double radius, double within,
                                  Found& found) noexcept {
-    const bool all = shapes.eachNear(p, radius + within, [&](int object, const FeatureDistance& d) {
-        found.add(d.gradient, d.closest, d.distance - radius, object, d.feature, Contact::kNoCandidate);
-    });
-    found.full |= !all;
+    found.full |= !visitShapes(shapes, p, radius, within, found);
 }
+
+struct Broken {
+    glm::dvec3 to;
+    double most; ///< by which the plane of `contact` is broken, or what counts as none
+    std::optional<Contact> contact{};
+
+    void add(const glm::dvec3& normal, const glm::dvec3& point, double gap, int object, FeatureId feature,
+             uint32_t candidate) noexcept {
+        const double by = planeOffset(gap) - glm::dot(normal, to);
+        if (by > most) {
+            most = by;
+            contact = Contact{normal, point, gap, object, feature, candidate};
+        }
+    }
+};
 
 /// A goal nearer to the triangle than this has no direction from it, object units.
 constexpr double kNoDirection = 1e-9;
@@ -77,10 +97,21 @@ uint32_t findContacts(CandidateCache& cache, const glm::dvec3& p, double radius,
     if (cache.anyOneSided())
         addOneSidedTriangles(cache, p, radius, within, found);
     else
-        addTriangles<false>(cache, p, radius, within, found);
+        visitTriangles<false>(cache, p, radius, within, found);
     if (!cache.shapes().empty())
         addShapes(cache.shapes(), p, radius, within, found);
     return found.count;
+}
+
+std::optional<Contact> mostBroken(CandidateCache& cache, const glm::dvec3& p, double radius, double within,
+                                  const glm::dvec3& to, double tolerance) noexcept {
+    Broken broken{to, tolerance};
+    if (cache.anyOneSided())
+        visitTriangles<true>(cache, p, radius, within, broken);
+    else
+        visitTriangles<false>(cache, p, radius, within, broken);
+    (void)visitShapes(cache.shapes(), p, radius, within, broken);
+    return broken.contact;
 }
 
 double nearestDistance(CandidateCache& cache, const glm::dvec3& p, double reach, double radius) noexcept {

@@ -31,11 +31,18 @@ constexpr int kCatchingUp = 3;
 /// The same in reaches of the proxy: the ball's area is that of reach and margin together, and a smaller
 /// margin only makes gathers more frequent.
 constexpr double kShell = 0.3;
-/// But no more than holds about this many candidates. A resting proxy is empty, so that their number grows as
-/// the margin does: over a dense mesh a shell of 0.3 reaches holds thousands, and the moves of one tick may
-/// gather it twenty times. (ToyCar in the workspace, radius 6 mm: p99 of a tick 2.8 ms without this bound,
-/// 0.60, 0.65 and 0.67 ms with 64, 128 and 256.)
+/// But a thinner shell where it holds more candidates than about this. A resting proxy is empty, so that
+/// their number mostly grows as the margin does: over a dense mesh a shell of 0.3 reaches holds thousands,
+/// and the moves of one tick may gather it twenty times. (ToyCar in the workspace, radius 6 mm: p99 of a
+/// tick 2.8 ms without this bound, 0.60, 0.65 and 0.67 ms with 64, 128 and 256.)
 constexpr double kShellCandidates = 128.0;
+/// The smallest margin, too, as a share of a move divided by the budget of moves: a hand at rest on a vertex,
+/// whose facets are in every ball, has shrunk the margin to nothing, and what frees the proxy there (friction
+/// that is switched off) is no way of the hand.
+constexpr double kCatchUp = 0.25;
+/// A margin grows by no more than keeps twice the candidates within the capacity, by area; but by a half at
+/// least, since a vertex of thousands of facets has them in the smaller ball, too.
+constexpr double kFastestGrowth = 4.0, kSlowestGrowth = 1.5;
 /// Where the ball after a new one is expected, in its margins from its centre, and how much larger: the way
 /// is not quite straight.
 constexpr double kNextBall = 2.5, kNextSize = 1.1;
@@ -96,11 +103,13 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
         else if (count < kFewCandidates)
             next = 1.5 * margin;
         // However dense the mesh, a smaller ball costs more than it saves. A hand at rest has shrunk it to
-        // nothing: it must grow again, as far as a larger ball still holds all, or the proxy would creep.
-        const double candidates = static_cast<double>(std::max(count, size_t{1}));
-        const double growth = std::min(4.0, std::sqrt(CandidateCache::kCapacity / candidates));
+        // nothing: it must grow again, or the proxy would creep.
+        const auto candidates = static_cast<double>(std::max(count, size_t{1}));
+        const double growth = std::clamp(std::sqrt(0.5 * CandidateCache::kCapacity / candidates),
+                                         kSlowestGrowth, kFastestGrowth);
         const double shell = std::min(kShell * reach, kShellCandidates / candidates * margin);
-        const double lasting = fits ? std::min(std::max(kLasting * travel_, shell), growth * margin) : 0.0;
+        const double needed = std::max({kLasting * travel_, shell, kCatchUp * length / budget_});
+        const double lasting = fits ? std::min(needed, growth * margin) : 0.0;
         const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
         state_.gatherMargin = std::clamp(next, least, kLargestMargin);
         if (fits)

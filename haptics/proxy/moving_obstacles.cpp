@@ -44,10 +44,6 @@ constexpr int kRounds = 24;
 /// Bound of a tick's work. A step without conflict takes one sweep per object.
 constexpr int kSweepBudget = 512;
 
-bool same(const Similarity& a, const Similarity& b) {
-    return a.translation == b.translation && a.rotation == b.rotation && a.scale == b.scale;
-}
-
 /// The proxy's clearance shrinks with its object.
 void shrinkClearance(const ObjectMotion& reference, DeviceState& state) noexcept {
     if (!reference.jumped && reference.workspaceFromObject.scale < reference.before.scale)
@@ -59,7 +55,7 @@ void shrinkClearance(const ObjectMotion& reference, DeviceState& state) noexcept
 bool MovingObstacles::moves(size_t k) const {
     if (const MeshInstant* instant = scene_.objects[k]->instant; instant != nullptr && instant->travel > 0.0)
         return !motions_[k].jumped;
-    return !motions_[k].jumped && !same(motions_[k].before, motions_[k].workspaceFromObject);
+    return motions_[k].moves();
 }
 
 /// True where any part of object k may come within `within` of the proxy's start, by bounding spheres. The

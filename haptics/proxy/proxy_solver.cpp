@@ -7,6 +7,7 @@
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -76,14 +77,25 @@ void ProxySolver::adoptReference(int reference) noexcept {
     const glm::dvec3 travel = motions_[index].workspaceFromObject.inverse().direction(state_.travel);
     const double workspaceTravel = glm::length(travel);
     travel_ = workspaceTravel / motions_[index].workspaceFromObject.scale;
+    heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
+    if (motions_[index].moves()) [[unlikely]]
+        headWithReference(motions_[index]);
     // A surface that gives way under a hand at rest takes the proxy along: it must not creep after it
     // (cover).
     if (const MeshInstant* instant = scene_.objects[index]->instant; instant != nullptr) [[unlikely]]
         travel_ += instant->travel;
-    heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
     if (scene_.plan.oneSided)
         state_.candidates.standsClearBy(
             state_.placed ? state_.clearance / motions_[index].workspaceFromObject.scale : INFINITY);
+}
+
+/// The way of the hand in the frame of an object that moves: the hand may rest, and the object pass by. Out
+/// of line: code that few ticks need must not take registers from code that all do.
+[[gnu::noinline]] void ProxySolver::headWithReference(const ObjectMotion& reference) noexcept {
+    const glm::dvec3 way = reference.workspaceFromObject.inversePoint(state_.hip) -
+                           reference.before.inversePoint(state_.hip - state_.travel);
+    travel_ = glm::length(way);
+    heading_ = travel_ > 0.0 ? way / travel_ : glm::dvec3(0.0);
 }
 
 /// A radius that grew takes effect once the proxy is clear by it wherever it may return to. Until then a
@@ -112,22 +124,45 @@ bool ProxySolver::findAllContacts(double within) noexcept {
     return !full;
 }
 
-void ProxySolver::findContacts(double within) noexcept {
-    if (!findAllContacts(within))
-        rest_.flags = rest_.flags | TickFlag::CandidatesFull;
+/// Where the proxy would move to among the planes of the contacts.
+[[gnu::always_inline]] inline void ProxySolver::findSubGoal(const glm::dvec3& goal) noexcept {
+    for (uint32_t i = 0; i < rest_.contactCount; ++i)
+        rest_.planes[i] = {rest_.contacts[i].normal, planeOffset(rest_.contacts[i].gap)};
+    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
 }
 
-/// Where the proxy would move to among the planes of the contacts. A plane lets it down to the resting gap,
-/// or lifts it there after a hit. Around that gap its offset is zero: between planes a millionth of a degree
-/// apart, an offset of a tenth of the gap would be a tenth of a micrometre of sideways motion, again in every
-/// move.
-[[gnu::always_inline]] inline void ProxySolver::findSubGoal(const glm::dvec3& goal) noexcept {
-    constexpr double kContent = 0.3 * kContactGap;
-    for (uint32_t i = 0; i < rest_.contactCount; ++i) {
-        const double lack = kContactGap - rest_.contacts[i].gap;
-        rest_.planes[i] = {rest_.contacts[i].normal, std::abs(lack) > kContent ? lack : 0.0};
+/// The same where `all` contacts are known, or only as many as fit.
+[[gnu::always_inline]] inline void ProxySolver::findSubGoal(const glm::dvec3& goal, bool all) noexcept {
+    if (all) [[likely]]
+        findSubGoal(goal);
+    else
+        findSubGoalAmongMany(goal);
+}
+
+/// More contacts than fit, as at a vertex of a thousand facets, each seen from beside its edges. At most
+/// three hold the proxy: the plane that the sub-goal breaks most takes the place of those that do not. Each
+/// exchange takes the sub-goal farther from the goal, so that none comes back.
+[[gnu::noinline]] void ProxySolver::findSubGoalAmongMany(const glm::dvec3& goal) noexcept {
+    constexpr int kExchanges = 32;
+    if (!state_.candidates.shapes().empty()) // may tell fewer features than they have
+        rest_.flags = rest_.flags | TickFlag::CandidatesFull;
+    const double tolerance = 2.0 * detail::kPlaneTolerance * (1.0 + glm::length(goal - state_.proxy));
+    for (int exchange = 0; exchange < kExchanges; ++exchange) {
+        findSubGoal(goal);
+        const std::optional<Contact> broken = mostBroken(state_.candidates, state_.proxy, radius_,
+                                                         kContactReach, rest_.activeSet.point, tolerance);
+        if (!broken)
+            return;
+        std::array<Contact, 4> kept;
+        uint32_t count = 0;
+        for (; count < static_cast<uint32_t>(rest_.activeSet.count); ++count)
+            kept[count] = rest_.contacts[static_cast<size_t>(rest_.activeSet.active[count])];
+        kept[count++] = *broken;
+        std::copy_n(kept.begin(), count, rest_.contacts.begin());
+        rest_.contactCount = count;
     }
-    rest_.activeSet = nearestFeasible(goal - state_.proxy, {rest_.planes.data(), rest_.contactCount});
+    findSubGoal(goal);
+    rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 
 /// Over a convex edge: the same with what is near, of what the ball holds, and not touched. Where that is too
@@ -180,16 +215,16 @@ void ProxySolver::moveTowards(const glm::dvec3& goal) noexcept {
 void ProxySolver::dropTowards(const glm::dvec3& goal) noexcept {
     const int budget =
         std::exchange(budget_, std::max(budget_, static_cast<int>(rest_.iterations) + kDropMoves));
-    bool landed = false;
+    bool landed = false, all = true;
     slid_ = 0.0;
     while (!landed && advance(goal)) {
-        findContacts();
+        all = findAllContacts(kContactReach);
         landed = rest_.contactCount > 0;
     }
     budget_ = budget;
     if (!landed)
         return;
-    findSubGoal(goal);
+    findSubGoal(goal, all);
 }
 
 bool ProxySolver::touchesAt(const glm::dvec3& p) noexcept {
@@ -276,13 +311,13 @@ bool ProxySolver::rollAround(const glm::dvec3& goal) noexcept {
 bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
     if (cover(glm::dvec3(0.0), 0.0) < 0.0)
         return false;
-    findContacts();
+    const bool all = findAllContacts(kContactReach);
     const bool overEdge = rest_.contactCount == 0 && slid_ > 0.0 && rest_.iterations < kCreeping &&
                           state_.candidates.shapes().empty();
     if (overEdge) [[unlikely]]
         findSubGoalBelow(goal);
     else
-        findSubGoal(goal);
+        findSubGoal(goal, all);
     const glm::dvec3 move = rest_.activeSet.point;
     const double length = glm::length(move);
     if (length <= restLength(rest_.iterations) || withoutProgress_ > kFruitlessMoves ||
@@ -295,8 +330,8 @@ bool ProxySolver::advance(const glm::dvec3& goal) noexcept {
         stop(overEdge);
         // In the air over the surface that it was sliding on: that surface still holds the HIP off, or the
         // force would drop out.
-        if (rest_.contactCount == 0)
-            findContacts(lastMove_);
+        if (rest_.contactCount == 0 && !findAllContacts(lastMove_))
+            rest_.flags = rest_.flags | TickFlag::CandidatesFull;
         return false;
     }
     if (rest_.iterations >= kCreeping && rollAround(goal)) {

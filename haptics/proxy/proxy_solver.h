@@ -114,17 +114,19 @@ class ProxySolver {
     void measureClearance() noexcept;
     bool advance(const glm::dvec3& goal) noexcept;
     [[nodiscard]] bool findAllContacts(double within) noexcept;
-    void findContacts(double within = kContactReach) noexcept;
     bool rollAround(const glm::dvec3& goal) noexcept;
     bool goStraight(const glm::dvec3& to) noexcept;
     [[nodiscard]] bool goOver(const glm::dvec3& place, const glm::dvec3& normal) noexcept;
     [[nodiscard]] bool leapToRest(const glm::dvec3& goal) noexcept;
     [[nodiscard]] bool circles(const glm::dvec3& goal, double length) noexcept;
     void slideUp(const glm::dvec3& goal, const glm::dvec3& move, double share, double covered) noexcept;
+    void headWithReference(const ObjectMotion& reference) noexcept;
     double cover(const glm::dvec3& direction, double length) noexcept;
     [[nodiscard]] glm::dvec3 ballAhead(const glm::dvec3& direction, double wanted, double margin) noexcept;
     bool gather(CandidateCache& cache, const glm::dvec3& centre, double radius) noexcept;
     void findSubGoal(const glm::dvec3& goal) noexcept;
+    void findSubGoal(const glm::dvec3& goal, bool all) noexcept;
+    void findSubGoalAmongMany(const glm::dvec3& goal) noexcept;
     void findSubGoalBelow(const glm::dvec3& goal) noexcept;
     bool stop(bool overEdge) noexcept;
 
@@ -138,8 +140,8 @@ class ProxySolver {
     double slid_ = 0.0;           ///< the last move of this solve, where it was a slide that no surface ended
     double lastMove_ = 0.0;       ///< object units, of this tick
     double lastSlide_ = INFINITY; ///< towards its goal, of this tick; only where shapes are near
-    double travel_ = 0.0;         ///< of the HIP in this tick
-    glm::dvec3 heading_{0.0};
+    double travel_ = 0.0;         ///< of the HIP in this tick, in the reference object's frame
+    glm::dvec3 heading_{0.0};     ///< its direction; zero: none
     int budget_;
     SlideMemory slide_;
     DeviceState& state_;

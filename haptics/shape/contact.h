@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
 
 namespace touchstone {
@@ -17,6 +18,15 @@ inline constexpr double kContactGap = 1e-12;
 /// is merely near has a tilted distance gradient (a coplanar neighbour seen from beside its edge by as much
 /// as sqrt(2 reach / radius)), and its plane would hold back a free proxy.
 inline constexpr double kContactReach = 2.0 * kContactGap;
+
+/// Offset of the plane of a contact at this gap, from the proxy: it lets the proxy down to the resting gap,
+/// or lifts it there after a hit. Around that gap it is zero: between planes a millionth of a degree apart,
+/// an offset of a tenth of the gap would be a tenth of a micrometre of sideways motion, again in every move.
+[[nodiscard]] inline double planeOffset(double gap) noexcept {
+    constexpr double kContent = 0.3 * kContactGap;
+    const double lack = kContactGap - gap;
+    return std::abs(lack) > kContent ? lack : 0.0;
+}
 
 struct Contact {
     /// The value of `candidate` for a contact that is no triangle of the cache.

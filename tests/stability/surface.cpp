@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace touchstone::test {
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 glm::dvec3 corner(const HapticObject& object, size_t triangle, size_t k) {
     return glm::dvec3(object.vertices[object.indices[3 * triangle + k]]);
@@ -42,7 +41,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
 
 double largestAngle(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
     if (a.empty() != b.empty())
-        return kPi;
+        return std::numbers::pi;
     double largest = 0.0;
     for (const glm::dvec3& x : a)
         for (const glm::dvec3& y : b)
@@ -128,7 +127,7 @@ double Surface::freeSector(size_t k, const std::vector<size_t>& near, const glm:
     glm::dvec3 zero = seenFrom - at;
     zero -= glm::dot(zero, along) * along;
     if (!(glm::length(zero) > 0.0))
-        return 2.0 * kPi;
+        return 2.0 * std::numbers::pi;
     zero = glm::normalize(zero);
     const glm::dvec3 quarter = glm::cross(along, zero);
     double left = INFINITY, right = INFINITY;
@@ -150,9 +149,9 @@ double Surface::freeSector(size_t k, const std::vector<size_t>& near, const glm:
                 (into != across[0] && glm::dot(into, across[0]) > -gap * glm::length(across[0])))
                 continue;
             double angle = std::atan2(glm::dot(into, quarter), glm::dot(into, zero));
-            angle += angle < 0.0 ? 2.0 * kPi : 0.0;
+            angle += angle < 0.0 ? 2.0 * std::numbers::pi : 0.0;
             left = std::min(left, angle);
-            right = std::min(right, 2.0 * kPi - angle);
+            right = std::min(right, 2.0 * std::numbers::pi - angle);
         }
     }
     return left == INFINITY ? 0.0 : left + right;
@@ -181,9 +180,9 @@ double Surface::stepAt(size_t k, const std::vector<size_t>& near, std::pair<uint
 double Surface::turnAlong(ObjectMotions motions, const glm::dvec3& p, const glm::dvec3& q, double reach,
                           double gap) const {
     double sum = 0.0;
-    for (const double turn : edgesAlong(motions, p, q, reach, gap, kPi))
+    for (const double turn : edgesAlong(motions, p, q, reach, gap, std::numbers::pi))
         sum += std::max(turn, 0.0);
-    return std::min(sum, kPi);
+    return std::min(sum, std::numbers::pi);
 }
 
 std::vector<double> Surface::edgesAlong(ObjectMotions motions, const glm::dvec3& p, const glm::dvec3& q,
@@ -222,7 +221,8 @@ std::vector<double> Surface::edgesAlong(ObjectMotions motions, const glm::dvec3&
                 const glm::dvec3 along = (b - a) / length;
                 const double one = freeSector(k, near, at, along, from, close),
                              other = freeSector(k, near, at, along, to, close);
-                turns.push_back(std::max(one, other) - kPi + stepAt(k, near, {i0, i1}, at, close));
+                turns.push_back(std::max(one, other) - std::numbers::pi +
+                                stepAt(k, near, {i0, i1}, at, close));
                 convex += std::max(turns.back(), 0.0);
                 if (convex >= enough)
                     return turns;

@@ -8,9 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
 
 namespace touchstone::test::real_time_test {
 namespace {
@@ -36,7 +33,7 @@ TEST(RealTime, TheTickAllocatesNothing) {
 }
 
 /// Two plates side by side, 200 triangles on a square millimetre: within 0.3 radii of a proxy of 4 mm that
-/// rests on them lie 6,000. Each move of a tick may gather what is near.
+/// rests on them lie 6,900. Each move of a tick may gather what is near.
 TEST(RealTime, ABigProxyOnADenseMeshGathersLittle) {
     constexpr double kWidth = 0.02, kRadius = 4e-3, kDepth = 1e-3;
     const assets::Shape plate = assets::plane(kWidth, kWidth, 200, 200);
@@ -62,41 +59,6 @@ TEST(RealTime, ABigProxyOnADenseMeshGathersLittle) {
     EXPECT_GT(ticks, 150);
     EXPECT_GT(most, 10u);
     EXPECT_LT(most, 400u);
-}
-
-/// Facets that all meet in the middle of a disc in the plane y = 0, facing +y.
-assets::Shape fan(uint32_t facets, double radius) {
-    assets::Shape shape;
-    shape.positions.emplace_back(0.0f);
-    for (uint32_t i = 0; i < facets; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / facets;
-        shape.positions.emplace_back(glm::dvec3(radius * std::cos(angle), 0.0, radius * std::sin(angle)));
-        shape.indices.insert(shape.indices.end(), {0, 1 + (i + 1) % facets, 1 + i});
-    }
-    return shape;
-}
-
-/// However small the ball about a vertex is, it holds all its facets. While the hand rests there, it shrinks.
-TEST(RealTime, AHandThatRestedOnAVertexOfManyFacetsIsFollowed) {
-    for (const uint32_t facets : {100u, 300u, 1000u, 3000u}) {
-        for (const double radius : {0.0, 0.5e-3, 4e-3}) {
-            SCOPED_TRACE(std::to_string(facets) + " facets, radius " + std::to_string(radius));
-            HapticSettings settings;
-            settings.proxyRadius = radius;
-            settings.forceShading = ShadingMode::Off;
-            settings.friction = FrictionMode::Off;
-            TouchBench bench(sceneOf(fan(facets, 0.02)), settings);
-            const double hip = radius - 1e-3;
-            bench.moveTo({0.0, radius + 5e-3, 0.0}, 0.1);
-            bench.moveTo({0.0, hip, 0.0}, 0.1);
-            for (int i = 0; i < 300; ++i)
-                bench.step({0.0, hip, 0.0});
-            bench.moveTo({5e-3, hip, 1e-3}, 0.1, [&](const HapticOutput& output) {
-                ASSERT_NEAR(output.proxy.x, output.hip.x, 1e-7);
-                ASSERT_NEAR(output.proxy.y, radius, 1e-7);
-            });
-        }
-    }
 }
 
 } // namespace

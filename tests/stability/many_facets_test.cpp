@@ -1,0 +1,131 @@
+// Vertices of hundreds and thousands of facets: every ball about them holds all facets, and a tick has room
+// for 64 contacts.
+
+#include "haptics/settings/tick_flags.h"
+#include "tests/support/touch_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace touchstone::test {
+namespace {
+
+constexpr double kDepth = 1e-3, kRim = 0.02;
+
+/// Facets that all meet in the origin; their rim is higher by `rise`, m.
+assets::Shape fan(uint32_t facets, double rise) {
+    assets::Shape shape;
+    shape.positions.emplace_back(0.0f);
+    for (uint32_t i = 0; i < facets; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / facets;
+        shape.positions.emplace_back(glm::dvec3(kRim * std::cos(angle), rise, kRim * std::sin(angle)));
+        shape.indices.insert(shape.indices.end(), {0, 1 + (i + 1) % facets, 1 + i});
+    }
+    return shape;
+}
+
+HapticSettings plainSettings(double radius) {
+    HapticSettings settings;
+    settings.proxyRadius = radius;
+    settings.forceShading = ShadingMode::Off;
+    settings.friction = FrictionMode::Off;
+    return settings;
+}
+
+/// A touch of a flat fan, kDepth deep, at x = `at`.
+TouchBench touchOf(uint32_t facets, double radius, double at) {
+    TouchBench bench(sceneOf(fan(facets, 0.0)), plainSettings(radius));
+    bench.moveTo({at, radius + 5e-3, 0.0}, 0.1);
+    bench.moveTo({at, radius - kDepth, 0.0}, 0.1);
+    return bench;
+}
+
+void expectAbove(const HapticOutput& output, double radius) {
+    ASSERT_NEAR(output.proxy.x, output.hip.x, 1e-7);
+    ASSERT_NEAR(output.proxy.y, radius, 1e-7);
+    ASSERT_NEAR(output.proxy.z, output.hip.z, 1e-7);
+    ASSERT_FALSE(has(output.flags, TickFlag::CandidatesFull));
+}
+
+class ManyFacets : public testing::TestWithParam<uint32_t> {
+  protected:
+    /// Calls test(radius) for a point, a small and a large sphere.
+    template <class Test>
+    void eachRadius(const Test& test) const {
+        for (const double radius : {0.0, 0.5e-3, 4e-3}) {
+            SCOPED_TRACE("radius " + std::to_string(radius));
+            test(radius);
+        }
+    }
+};
+
+TEST_P(ManyFacets, AHandThatRestedOnTheirVertexIsFollowed) {
+    eachRadius([&](double radius) {
+        TouchBench bench = touchOf(GetParam(), radius, 0.0);
+        for (int i = 0; i < 300; ++i)
+            bench.step({0.0, radius - kDepth, 0.0});
+        bench.moveTo({5e-3, radius - kDepth, 1e-3}, 0.1,
+                     [&](const HapticOutput& output) { expectAbove(output, radius); });
+    });
+}
+
+TEST_P(ManyFacets, AHandAtRestStaysWhereTheirVertexComesBy) {
+    eachRadius([&](double radius) {
+        TouchBench bench = touchOf(GetParam(), radius, -5e-3);
+        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+        for (int i = 0; i < 100; ++i) {
+            Similarity now = bench.motions[0].workspaceFromObject;
+            now.translation.x -= 1e-4;
+            bench.motions[0] = {now, bench.motions[0].workspaceFromObject, false};
+            expectAbove(bench.step({-5e-3, radius - kDepth, 0.0}), radius);
+        }
+    });
+}
+
+/// Within some nanometres of the vertex the sphere touches all facets, most of them from beside their edges.
+TEST_P(ManyFacets, NowhereBesideTheirVertexDoesAProxyStick) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> exponent(-12.0, -6.0), angle(0.0, 2.0 * std::numbers::pi);
+    eachRadius([&](double radius) {
+        for (int trial = 0; trial < 20; ++trial) {
+            const double away = std::pow(10.0, exponent(random)), a = angle(random), b = angle(random);
+            SCOPED_TRACE("trial " + std::to_string(trial));
+            TouchBench bench = touchOf(GetParam(), radius, -2e-3);
+            const glm::dvec3 beside(away * std::cos(a), radius - kDepth, away * std::sin(a));
+            bench.moveTo(beside, 0.1);
+            for (int i = 0; i < 3; ++i)
+                expectAbove(bench.step(beside), radius);
+            bench.moveTo(beside + glm::dvec3(2e-3 * std::cos(b), 0.0, 2e-3 * std::sin(b)), 0.1,
+                         [&](const HapticOutput& output) { expectAbove(output, radius); });
+        }
+    });
+}
+
+/// A sphere that is pressed into a funnel touches all walls at once, at radius / cos(slope) above the vertex.
+TEST_P(ManyFacets, AFunnelHoldsTheProxyInItsMiddle) {
+    constexpr double kRise = 0.012;
+    const double slope = std::atan(kRise / (kRim * std::cos(std::numbers::pi / GetParam())));
+    eachRadius([&](double radius) {
+        const double rest = radius / std::cos(slope);
+        TouchBench bench(sceneOf(fan(GetParam(), kRise)), plainSettings(radius));
+        bench.moveTo({1e-3, rest + 5e-3, 0.5e-3}, 0.1);
+        bench.moveTo({0.2e-3, rest - kDepth, -0.1e-3}, 0.1);
+        bench.moveTo({-0.1e-3, rest - kDepth, 0.2e-3}, 0.1);
+        for (int i = 0; i < 20; ++i)
+            bench.step({-0.1e-3, rest - kDepth, 0.2e-3});
+        EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-7);
+        EXPECT_NEAR(bench.output.proxy.y, rest, 1e-7);
+        EXPECT_NEAR(bench.output.proxy.z, 0.0, 1e-7);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(, ManyFacets, testing::Values(24u, 100u, 300u, 1000u, 3000u),
+                         [](const auto& facets) { return "Of" + std::to_string(facets.param); });
+
+} // namespace
+} // namespace touchstone::test
