@@ -104,13 +104,13 @@ uint32_t findContacts(CandidateCache& cache, const glm::dvec3& p, double radius,
 }
 
 std::optional<Contact> mostBroken(CandidateCache& cache, const glm::dvec3& p, double radius, double within,
-                                  const glm::dvec3& to, double tolerance) noexcept {
+                                  const glm::dvec3& to, double tolerance, bool& all) noexcept {
     Broken broken{to, tolerance};
     if (cache.anyOneSided())
         visitTriangles<true>(cache, p, radius, within, broken);
     else
         visitTriangles<false>(cache, p, radius, within, broken);
-    (void)visitShapes(cache.shapes(), p, radius, within, broken);
+    all &= visitShapes(cache.shapes(), p, radius, within, broken);
     return broken.contact;
 }
 

@@ -19,10 +19,11 @@ namespace touchstone {
                                     std::span<Contact> found, bool& full) noexcept;
 
 /// Of the contacts that findContacts gives, however many, the one whose plane (planeOffset) a move to p +
-/// `to` breaks most; none where it breaks no plane by more than `tolerance`.
+/// `to` breaks most; none where it breaks no plane by more than `tolerance`. `all` becomes false where a
+/// shape has more features than it can tell.
 [[nodiscard]] std::optional<Contact> mostBroken(CandidateCache& cache, const glm::dvec3& p, double radius,
-                                                double within, const glm::dvec3& to,
-                                                double tolerance) noexcept;
+                                                double within, const glm::dvec3& to, double tolerance,
+                                                bool& all) noexcept;
 
 /// The minimum distance from p of the features that a proxy of `radius` does not ignore
 /// (CandidateCache::passes), within `reach` of p; INFINITY where there is none. The ball of the cache covers

@@ -7,7 +7,6 @@
 #include "haptics/settings/tick_flags.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -94,8 +93,9 @@ void ProxySolver::adoptReference(int reference) noexcept {
 [[gnu::noinline]] void ProxySolver::headWithReference(const ObjectMotion& reference) noexcept {
     const glm::dvec3 way = reference.workspaceFromObject.inversePoint(state_.hip) -
                            reference.before.inversePoint(state_.hip - state_.travel);
+    constexpr double kRounding = 1e-13; // where the hand moves as the object does
     travel_ = glm::length(way);
-    heading_ = travel_ > 0.0 ? way / travel_ : glm::dvec3(0.0);
+    heading_ = travel_ > kRounding ? way / travel_ : glm::dvec3(0.0);
 }
 
 /// A radius that grew takes effect once the proxy is clear by it wherever it may return to. Until then a
@@ -140,28 +140,35 @@ bool ProxySolver::findAllContacts(double within) noexcept {
 }
 
 /// More contacts than fit, as at a vertex of a thousand facets, each seen from beside its edges. At most
-/// three hold the proxy: the plane that the sub-goal breaks most takes the place of those that do not. Each
+/// three hold the proxy: the plane that the sub-goal breaks most takes the place of one that does not. Each
 /// exchange takes the sub-goal farther from the goal, so that none comes back.
 [[gnu::noinline]] void ProxySolver::findSubGoalAmongMany(const glm::dvec3& goal) noexcept {
-    constexpr int kExchanges = 32;
-    if (!state_.candidates.shapes().empty()) // may tell fewer features than they have
-        rest_.flags = rest_.flags | TickFlag::CandidatesFull;
+    constexpr int kExchanges = 64; // of a tick: each looks through all that is near
     const double tolerance = 2.0 * detail::kPlaneTolerance * (1.0 + glm::length(goal - state_.proxy));
-    for (int exchange = 0; exchange < kExchanges; ++exchange) {
+    const SubGoal& found = rest_.activeSet;
+    const auto holds = [&found](uint32_t contact) {
+        const auto end = found.active.begin() + found.count;
+        return std::find(found.active.begin(), end, static_cast<int>(contact)) != end;
+    };
+    uint32_t next = 0;
+    bool all = true;
+    while (true) {
         findSubGoal(goal);
-        const std::optional<Contact> broken = mostBroken(state_.candidates, state_.proxy, radius_,
-                                                         kContactReach, rest_.activeSet.point, tolerance);
-        if (!broken)
+        const std::optional<Contact> broken =
+            mostBroken(state_.candidates, state_.proxy, radius_, kContactReach, found.point, tolerance, all);
+        if (found.exact && all && !broken)
             return;
-        std::array<Contact, 4> kept;
-        uint32_t count = 0;
-        for (; count < static_cast<uint32_t>(rest_.activeSet.count); ++count)
-            kept[count] = rest_.contacts[static_cast<size_t>(rest_.activeSet.active[count])];
-        kept[count++] = *broken;
-        std::copy_n(kept.begin(), count, rest_.contacts.begin());
-        rest_.contactCount = count;
+        if (!found.exact || !broken || ++exchanges_ > kExchanges)
+            break;
+        if (rest_.contactCount < SolveResult::kMaxContacts) {
+            rest_.contacts[rest_.contactCount++] = *broken;
+            continue;
+        }
+        while (holds(next)) // three of them at most
+            next = (next + 1) % SolveResult::kMaxContacts;
+        rest_.contacts[next] = *broken;
+        next = (next + 1) % SolveResult::kMaxContacts;
     }
-    findSubGoal(goal);
     rest_.flags = rest_.flags | TickFlag::CandidatesFull;
 }
 

@@ -136,6 +136,7 @@ class ProxySolver {
     double radius_ = 0.0;
     int withoutProgress_ = 0;
     int gathers_ = 0;             ///< of this tick, and attempts at them
+    int exchanges_ = 0;           ///< of this tick, where more contacts are near than fit
     int leaps_ = 0;               ///< that this solve may still try
     double slid_ = 0.0;           ///< the last move of this solve, where it was a slide that no surface ended
     double lastMove_ = 0.0;       ///< object units, of this tick

@@ -46,10 +46,10 @@ TouchBench touchOf(uint32_t facets, double radius, double at) {
 }
 
 void expectAbove(const HapticOutput& output, double radius) {
-    ASSERT_NEAR(output.proxy.x, output.hip.x, 1e-7);
-    ASSERT_NEAR(output.proxy.y, radius, 1e-7);
-    ASSERT_NEAR(output.proxy.z, output.hip.z, 1e-7);
-    ASSERT_FALSE(has(output.flags, TickFlag::CandidatesFull));
+    EXPECT_NEAR(output.proxy.x, output.hip.x, 1e-7);
+    EXPECT_NEAR(output.proxy.y, radius, 1e-7);
+    EXPECT_NEAR(output.proxy.z, output.hip.z, 1e-7);
+    EXPECT_FALSE(has(output.flags, TickFlag::CandidatesFull));
 }
 
 class ManyFacets : public testing::TestWithParam<uint32_t> {
@@ -74,15 +74,71 @@ TEST_P(ManyFacets, AHandThatRestedOnTheirVertexIsFollowed) {
     });
 }
 
+/// The fan goes round a pivot, and its vertex comes by under the hand.
 TEST_P(ManyFacets, AHandAtRestStaysWhereTheirVertexComesBy) {
+    constexpr double kWay = 0.01;
     eachRadius([&](double radius) {
-        TouchBench bench = touchOf(GetParam(), radius, -5e-3);
-        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
-        for (int i = 0; i < 100; ++i) {
-            Similarity now = bench.motions[0].workspaceFromObject;
-            now.translation.x -= 1e-4;
-            bench.motions[0] = {now, bench.motions[0].workspaceFromObject, false};
-            expectAbove(bench.step({-5e-3, radius - kDepth, 0.0}), radius);
+        for (const double turning : {0.0, 1.0}) {
+            SCOPED_TRACE(turning > 0.0 ? "turning" : "straight");
+            TouchBench bench(sceneOf(fan(GetParam(), 0.0)), plainSettings(radius));
+            const auto poseAt = [&](double angle) {
+                const glm::dquat turn = glm::angleAxis(turning * angle, glm::dvec3(0.0, 1.0, 0.0));
+                const glm::dvec3 vertex = turning > 0.0
+                                              ? kWay * glm::dvec3(std::sin(angle), 0.0, std::cos(angle) - 1.0)
+                                              : glm::dvec3(kWay * angle, 0.0, 0.0);
+                return Similarity{.scale = 1.0, .rotation = turn, .translation = vertex} *
+                       bench.scene->restMotions[0].workspaceFromObject;
+            };
+            bench.motions = {{poseAt(0.5), poseAt(0.5), false}};
+            bench.moveTo({0.0, radius + 5e-3, 0.0}, 0.1);
+            bench.moveTo({0.0, radius - kDepth, 0.0}, 0.1);
+            for (int i = 1; i <= 100; ++i) {
+                bench.motions[0] = {poseAt(0.5 - 0.01 * i), bench.motions[0].workspaceFromObject, false};
+                expectAbove(bench.step({0.0, radius - kDepth, 0.0}), radius);
+            }
+        }
+    });
+}
+
+TEST_P(ManyFacets, AHandAtRestIsFollowedWhereFrictionIsSwitchedOff) {
+    eachRadius([&](double radius) {
+        TouchBench bench = touchOf(GetParam(), radius, 0.0);
+        bench.settings.friction = FrictionMode::Zilles;
+        bench.settings.staticFriction = bench.settings.dynamicFriction = 1.0;
+        bench.step({0.0, radius - kDepth, 0.0});
+        const glm::dvec3 hip(0.3e-3, radius - kDepth, 0.1e-3);
+        bench.moveTo(hip, 0.1);
+        for (int i = 0; i < 300; ++i)
+            bench.step(hip);
+        EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-7) << "it sticks";
+        bench.settings.friction = FrictionMode::Off;
+        for (int i = 0; i < 30; ++i)
+            bench.step(hip);
+        expectAbove(bench.output, radius);
+    });
+}
+
+/// With all effects: friction holds the proxy back by mu times the depth, and no more.
+TEST_P(ManyFacets, FrontsWithFrictionAndShadingAreFollowedAcrossTheirVertex) {
+    eachRadius([&](double radius) {
+        Scene scene = sceneOf(fan(GetParam(), 0.0));
+        for (Material& material : scene.materials)
+            material.haptic.sides = SideChoice::Front;
+        HapticSettings settings;
+        settings.proxyRadius = radius;
+        settings.staticFriction = settings.dynamicFriction = 0.3;
+        TouchBench bench(scene, settings);
+        for (const double beside : {0.0, 1e-10, 1e-9, 5e-9}) {
+            SCOPED_TRACE("beside by " + std::to_string(1e9 * beside) + " nm");
+            bench.moveTo({-2e-3, radius + 5e-3, beside}, 0.1);
+            bench.moveTo({-2e-3, radius - kDepth, beside}, 0.1);
+            bench.moveTo({0.3e-3, radius - kDepth, beside}, 0.1); // the proxy is at the vertex
+            bench.moveTo({2e-3, radius - kDepth, beside}, 0.1, [&](const HapticOutput& output) {
+                EXPECT_NEAR(output.proxy.y, radius, 1e-7);
+                EXPECT_LT(output.hip.x - output.proxy.x, 0.3 * kDepth + 1e-4);
+                EXPECT_FALSE(has(output.flags, TickFlag::CandidatesFull));
+            });
+            bench.moveTo({2e-3, radius + 5e-3, beside}, 0.1);
         }
     });
 }
@@ -121,6 +177,7 @@ TEST_P(ManyFacets, AFunnelHoldsTheProxyInItsMiddle) {
         EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-7);
         EXPECT_NEAR(bench.output.proxy.y, rest, 1e-7);
         EXPECT_NEAR(bench.output.proxy.z, 0.0, 1e-7);
+        EXPECT_FALSE(has(bench.output.flags, TickFlag::CandidatesFull));
     });
 }
 

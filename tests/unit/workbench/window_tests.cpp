@@ -163,7 +163,9 @@ TEST_F(WindowTest, DraggingMovesAFreeHandInTheViewPlaneAndTheWheelInDepth) {
     EXPECT_GT(distance(start, dragged), 0.01);
     EXPECT_GT(dragged[1], start[1]) << "up is up";
     display_.scroll(inPicture(0.4, 0.4), 5);
-    const auto pushed = hip(later());
+    auto pushed = hip(later()), before = dragged;
+    for (int i = 0; i < 100 && distance(before, pushed) > 1e-8; ++i) // it comes to rest smoothly
+        before = std::exchange(pushed, hip(later()));
     EXPECT_NEAR(distance(dragged, pushed), 0.010, 0.002) << "five notches of 2 mm";
     EXPECT_LT(pushed[2], dragged[2]) << "away from the user";
     display_.drag(inPicture(0.4, 0.4), inPicture(0.6, 0.5), 3);
