@@ -36,9 +36,9 @@ constexpr double kShell = 0.3;
 /// and the moves of one tick may gather it twenty times. (ToyCar in the workspace, radius 6 mm: p99 of a
 /// tick 2.8 ms without this bound, 0.60, 0.65 and 0.67 ms with 64, 128 and 256.)
 constexpr double kShellCandidates = 128.0;
-/// The smallest margin, too, as a share of a move divided by the budget of moves: a hand at rest on a vertex,
-/// whose facets are in every ball, has shrunk the margin to nothing, and what frees the proxy there (friction
-/// that is switched off) is no way of the hand.
+/// The smallest margin, too, as a share of the move divided by the budget of moves: a hand at rest on a
+/// vertex, whose facets are in every ball, has shrunk the margin to nothing, and an obstacle that goes away
+/// frees the proxy without a way of the hand.
 constexpr double kCatchUp = 0.25;
 /// A margin grows by no more than keeps twice the candidates within the capacity, by area; but by a half at
 /// least, since a vertex of thousands of facets has them in the smaller ball, too.
@@ -72,12 +72,14 @@ bool ProxySolver::gather(CandidateCache& cache, const glm::dvec3& centre, double
 /// travel in this tick if that is less: a long move that a near surface ends must not gather what lies behind
 /// it. Returns the covered distance; negative if not even the place itself can be covered.
 double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
+    if (length > 0.0)
+        asked_ = length;
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
+    const double way = std::max(kLasting * travel_, kCatchUp * asked_ / budget_);
     // A ball gathered in free motion may hold thousands of triangles, of little use after contact.
     const double ball = state_.candidates.radius();
-    const bool crowded =
-        state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + kLasting * travel_);
+    const bool crowded = state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + way);
     if (crowded) {
         state_.gatherMargin = 0.25 * ball;
     } else {
@@ -108,8 +110,7 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
         const double growth = std::clamp(std::sqrt(0.5 * CandidateCache::kCapacity / candidates),
                                          kSlowestGrowth, kFastestGrowth);
         const double shell = std::min(kShell * reach, kShellCandidates / candidates * margin);
-        const double needed = std::max({kLasting * travel_, shell, kCatchUp * length / budget_});
-        const double lasting = fits ? std::min(needed, growth * margin) : 0.0;
+        const double lasting = fits ? std::min(std::max(way, shell), growth * margin) : 0.0;
         const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
         state_.gatherMargin = std::clamp(next, least, kLargestMargin);
         if (fits)

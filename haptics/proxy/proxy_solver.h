@@ -141,6 +141,7 @@ class ProxySolver {
     double slid_ = 0.0;           ///< the last move of this solve, where it was a slide that no surface ended
     double lastMove_ = 0.0;       ///< object units, of this tick
     double lastSlide_ = INFINITY; ///< towards its goal, of this tick; only where shapes are near
+    double asked_ = 0.0;          ///< length of the last move that was tried in this tick
     double travel_ = 0.0;         ///< of the HIP in this tick, in the reference object's frame
     glm::dvec3 heading_{0.0};     ///< its direction; zero: none
     int budget_;

@@ -4,6 +4,8 @@
 #include "haptics/settings/tick_flags.h"
 #include "tests/support/touch_bench.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,6 +115,32 @@ TEST_P(ManyFacets, AHandAtRestIsFollowedWhereFrictionIsSwitchedOff) {
         EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-7) << "it sticks";
         bench.settings.friction = FrictionMode::Off;
         for (int i = 0; i < 30; ++i)
+            bench.step(hip);
+        expectAbove(bench.output, radius);
+    });
+}
+
+/// A wall holds the proxy on the vertex, and goes away.
+TEST_P(ManyFacets, AHandAtRestIsFollowedWhereAnObstacleGoes) {
+    eachRadius([&](double radius) {
+        Scene scene = sceneOf(fan(GetParam(), 0.0));
+        const glm::dmat4 facingBack =
+            glm::rotate(glm::dmat4(1.0), 0.5 * std::numbers::pi, glm::dvec3(0.0, 0.0, 1.0));
+        addShape(scene, assets::plane(0.02, 0.02),
+                 glm::translate(glm::dmat4(1.0), glm::dvec3(radius + 1e-9, 0.0, 0.0)) * facingBack);
+        TouchBench bench(scene, plainSettings(radius));
+        bench.motions.assign(bench.scene->restMotions.begin(), bench.scene->restMotions.end());
+        bench.moveTo({-1e-3, radius + 5e-3, 0.0}, 0.1);
+        bench.moveTo({-1e-3, radius - kDepth, 0.0}, 0.1);
+        const glm::dvec3 hip(0.5e-3, radius - kDepth, 0.0);
+        bench.moveTo(hip, 0.1);
+        for (int i = 0; i < 300; ++i)
+            bench.step(hip);
+        EXPECT_NEAR(bench.output.proxy.x, 0.0, 1e-7);
+        Similarity away = bench.motions[1].workspaceFromObject;
+        away.translation.y += 1.0;
+        bench.motions[1] = {away, away, true};
+        for (int i = 0; i < 60; ++i) // a quarter of what is left in each tick
             bench.step(hip);
         expectAbove(bench.output, radius);
     });
