@@ -76,10 +76,10 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
         asked_ = length;
     const double reach = radius_ + kContactReach;
     const double wanted = std::min(length, std::max(travel_, 0.1 * state_.gatherMargin));
-    const double way = std::max(kLasting * travel_, kCatchUp * asked_ / budget_);
+    const auto way = [this] { return std::max(kLasting * travel_, kCatchUp * asked_ / budget_); };
     // A ball gathered in free motion may hold thousands of triangles, of little use after contact.
     const double ball = state_.candidates.radius();
-    const bool crowded = state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + way);
+    const bool crowded = state_.candidates.count() > 4 * kManyCandidates && ball > 4.0 * (reach + way());
     if (crowded) {
         state_.gatherMargin = 0.25 * ball;
     } else {
@@ -110,7 +110,7 @@ double ProxySolver::cover(const glm::dvec3& direction, double length) noexcept {
         const double growth = std::clamp(std::sqrt(0.5 * CandidateCache::kCapacity / candidates),
                                          kSlowestGrowth, kFastestGrowth);
         const double shell = std::min(kShell * reach, kShellCandidates / candidates * margin);
-        const double lasting = fits ? std::min(std::max(way, shell), growth * margin) : 0.0;
+        const double lasting = fits ? std::min(std::max(way(), shell), growth * margin) : 0.0;
         const double least = std::min(std::max(kSmallestMargin, lasting), kLargestMargin);
         state_.gatherMargin = std::clamp(next, least, kLargestMargin);
         if (fits)

@@ -77,7 +77,7 @@ void ProxySolver::adoptReference(int reference) noexcept {
     const double workspaceTravel = glm::length(travel);
     travel_ = workspaceTravel / motions_[index].workspaceFromObject.scale;
     heading_ = workspaceTravel > 0.0 ? travel / workspaceTravel : glm::dvec3(0.0);
-    if (motions_[index].moves()) [[unlikely]]
+    if (motions_.data() != scene_.restMotions.data() && motions_[index].moves()) [[unlikely]]
         headWithReference(motions_[index]);
     // A surface that gives way under a hand at rest takes the proxy along: it must not creep after it
     // (cover).
