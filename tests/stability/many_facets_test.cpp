@@ -2,6 +2,7 @@
 // for 64 contacts.
 
 #include "haptics/settings/tick_flags.h"
+#include "tests/support/fan.h"
 #include "tests/support/touch_bench.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,15 +21,8 @@ namespace {
 constexpr double kDepth = 1e-3, kRim = 0.02;
 
 /// Facets that all meet in the origin; their rim is higher by `rise`, m.
-assets::Shape fan(uint32_t facets, double rise) {
-    assets::Shape shape;
-    shape.positions.emplace_back(0.0f);
-    for (uint32_t i = 0; i < facets; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / facets;
-        shape.positions.emplace_back(glm::dvec3(kRim * std::cos(angle), rise, kRim * std::sin(angle)));
-        shape.indices.insert(shape.indices.end(), {0, 1 + (i + 1) % facets, 1 + i});
-    }
-    return shape;
+Scene fanScene(uint32_t facets, double rise) {
+    return sceneOf(fan(facets, kRim, 0.0, rise));
 }
 
 HapticSettings plainSettings(double radius) {
@@ -41,7 +35,7 @@ HapticSettings plainSettings(double radius) {
 
 /// A touch of a flat fan, kDepth deep, at x = `at`.
 TouchBench touchOf(uint32_t facets, double radius, double at) {
-    TouchBench bench(sceneOf(fan(facets, 0.0)), plainSettings(radius));
+    TouchBench bench(fanScene(facets, 0.0), plainSettings(radius));
     bench.moveTo({at, radius + 5e-3, 0.0}, 0.1);
     bench.moveTo({at, radius - kDepth, 0.0}, 0.1);
     return bench;
@@ -82,7 +76,7 @@ TEST_P(ManyFacets, AHandAtRestStaysWhereTheirVertexComesBy) {
     eachRadius([&](double radius) {
         for (const double turning : {0.0, 1.0}) {
             SCOPED_TRACE(turning > 0.0 ? "turning" : "straight");
-            TouchBench bench(sceneOf(fan(GetParam(), 0.0)), plainSettings(radius));
+            TouchBench bench(fanScene(GetParam(), 0.0), plainSettings(radius));
             const auto poseAt = [&](double angle) {
                 const glm::dquat turn = glm::angleAxis(turning * angle, glm::dvec3(0.0, 1.0, 0.0));
                 const glm::dvec3 vertex = turning > 0.0
@@ -123,7 +117,7 @@ TEST_P(ManyFacets, AHandAtRestIsFollowedWhereFrictionIsSwitchedOff) {
 /// A wall holds the proxy on the vertex, and goes away.
 TEST_P(ManyFacets, AHandAtRestIsFollowedWhereAnObstacleGoes) {
     eachRadius([&](double radius) {
-        Scene scene = sceneOf(fan(GetParam(), 0.0));
+        Scene scene = fanScene(GetParam(), 0.0);
         const glm::dmat4 facingBack =
             glm::rotate(glm::dmat4(1.0), 0.5 * std::numbers::pi, glm::dvec3(0.0, 0.0, 1.0));
         addShape(scene, assets::plane(0.02, 0.02),
@@ -149,7 +143,7 @@ TEST_P(ManyFacets, AHandAtRestIsFollowedWhereAnObstacleGoes) {
 /// With all effects: friction holds the proxy back by mu times the depth, and no more.
 TEST_P(ManyFacets, FrontsWithFrictionAndShadingAreFollowedAcrossTheirVertex) {
     eachRadius([&](double radius) {
-        Scene scene = sceneOf(fan(GetParam(), 0.0));
+        Scene scene = fanScene(GetParam(), 0.0);
         for (Material& material : scene.materials)
             material.haptic.sides = SideChoice::Front;
         HapticSettings settings;
@@ -196,7 +190,7 @@ TEST_P(ManyFacets, AFunnelHoldsTheProxyInItsMiddle) {
     const double slope = std::atan(kRise / (kRim * std::cos(std::numbers::pi / GetParam())));
     eachRadius([&](double radius) {
         const double rest = radius / std::cos(slope);
-        TouchBench bench(sceneOf(fan(GetParam(), kRise)), plainSettings(radius));
+        TouchBench bench(fanScene(GetParam(), kRise), plainSettings(radius));
         bench.moveTo({1e-3, rest + 5e-3, 0.5e-3}, 0.1);
         bench.moveTo({0.2e-3, rest - kDepth, -0.1e-3}, 0.1);
         bench.moveTo({-0.1e-3, rest - kDepth, 0.2e-3}, 0.1);

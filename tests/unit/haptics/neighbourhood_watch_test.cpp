@@ -3,6 +3,7 @@
 #include "haptics/shape/mesh/surface_walk.h"
 #include "study/truth/brute_force.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/fan.h"
 #include "tests/support/strokes.h"
 #include "tests/support/touch_bench.h"
 
@@ -577,21 +578,10 @@ TEST(NeighbourhoodWatch, ARadiusIsNotPretended) {
     EXPECT_EQ(feltRadius(settings), 5e-3);
 }
 
-/// A cone of thousands of facets: each look about its tip takes them all in.
-assets::Shape fan(uint32_t facets) {
-    assets::Shape shape;
-    shape.positions.emplace_back(0.0f, 0.03f, 0.0f);
-    for (uint32_t i = 0; i < facets; ++i) {
-        const double a = 2.0 * kPi * i / facets;
-        shape.positions.emplace_back(0.05 * std::cos(a), 0.0, 0.05 * std::sin(a));
-        shape.indices.insert(shape.indices.end(), {0u, 1 + (i + 1) % facets, 1 + i});
-    }
-    return shape;
-}
-
+/// Over a cone of thousands of facets each look about the tip takes them all in.
 TEST(NeighbourhoodWatch, TheWalkIsBoundedWhateverTheMesh) {
     for (const uint32_t facets : {1000u, 30000u}) {
-        TouchBench bench = watchBench(sceneOf(fan(facets)));
+        TouchBench bench = watchBench(sceneOf(fan(facets, 0.05, 0.03, 0.0)));
         bench.step({0.0, 0.05, 0.0});
         int flagged = 0, touching = 0;
         for (int i = 0; i < 300; ++i) {
