@@ -45,9 +45,10 @@ const Soup& ExactScene::soup(int frame) {
 }
 
 ExactTrial::ExactTrial(std::string name, ExactScene& scene, const ExactOptions& options)
-    : scene_(scene), options_(options), bench_(scene.haptic(), bareSolve(options.radius)) {
+    : scene_(scene), options_(options), bench_(scene.haptic(), bareSolve(options.radius)),
+      behind_(scene.haptic(), bareSolve(options.radius)) {
     figures_.name = std::move(name);
-    bench_.settings.proxyRadius = options.radius * scene.workspacePerFitted();
+    bench_.settings.proxyRadius = behind_.settings.proxyRadius = options.radius * scene.workspacePerFitted();
     smallestDiagonal_ = INFINITY;
     for (const auto& object : bench_.scene->objects)
         smallestDiagonal_ = std::min(smallestDiagonal_, object->diagonal * object->workspaceFromObject.scale);
@@ -56,6 +57,7 @@ ExactTrial::ExactTrial(std::string name, ExactScene& scene, const ExactOptions& 
 void ExactTrial::forget() {
     closeParting();
     bench_.state[0].forgetTouch();
+    behind_.state[0].forgetTouch();
     free_.reset();
 }
 
@@ -88,31 +90,30 @@ ExactTrial::Frame ExactTrial::frame() {
 }
 
 /// The tick, and every place between its moves: the solve is anytime, so that a replay from the same state
-/// with a budget of k moves ends where the k-th move of the whole tick ended.
+/// with a budget of k moves ends where the k-th move of the whole tick ended. The replays are of a second
+/// hand, one tick behind: a state holds megabytes, and most ticks of one move would copy it for nothing.
 std::vector<glm::dvec3> ExactTrial::replay(const glm::dvec3& hip) {
-    saved_ = bench_.state;
-    const uint64_t tick = bench_.tick;
     std::vector<glm::dvec3> places{bench_.state[0].proxy};
     bench_.step(hip);
-    const HapticOutput output = bench_.output;
-    const glm::dvec3 end = bench_.state[0].proxy;
-    if (output.iterations > 1) {
-        after_ = bench_.state;
-        const int budget = bench_.settings.iterationBudget;
-        for (uint32_t k = 1; k < output.iterations; ++k) {
-            bench_.state = saved_;
-            bench_.tick = tick;
-            bench_.settings.iterationBudget = static_cast<int>(k);
-            bench_.step(hip);
-            if (bench_.output.iterations != k)
+    const uint32_t moves = bench_.output.iterations;
+    if (moves > 1) {
+        saved_ = behind_.state;
+        const int budget = behind_.settings.iterationBudget;
+        for (uint32_t k = 1; k < moves; ++k) {
+            behind_.settings.iterationBudget = static_cast<int>(k);
+            behind_.step(hip);
+            if (behind_.output.iterations != k)
                 fault("a replay of " + std::to_string(k) + " moves made another number");
-            places.push_back(bench_.state[0].proxy);
+            places.push_back(behind_.state[0].proxy);
+            behind_.state = saved_;
+            --behind_.tick;
         }
-        bench_.settings.iterationBudget = budget;
-        bench_.state = after_;
-        bench_.tick = tick + 1;
-        bench_.output = output;
+        behind_.settings.iterationBudget = budget;
     }
+    behind_.step(hip);
+    const glm::dvec3 end = bench_.state[0].proxy;
+    if (behind_.state[0].proxy != end || behind_.output.force != bench_.output.force)
+        fault("a replay of the whole tick ends elsewhere");
     places.push_back(end);
     return places;
 }

@@ -97,9 +97,9 @@ class ExactTrial {
     ExactFigures figures_;
     ExactScene& scene_;
     ExactOptions options_;
-    TouchBench bench_;
+    TouchBench bench_, behind_;     ///< behind_ replays each tick in parts (replay)
     double smallestDiagonal_ = 0.0; ///< workspace m
-    std::vector<DeviceState> saved_, after_;
+    std::vector<DeviceState> saved_;
     bool finished_ = true;
     std::optional<LVec3> free_; ///< where the free-running oracle stands, reference object frame
     struct Parting {
