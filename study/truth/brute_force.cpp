@@ -15,6 +15,14 @@ LVec3 nearestOnSegment(const LVec3& p, const LVec3& a, const LVec3& b) {
     return a + std::min(1.0L, std::max(0.0L, t)) * ab;
 }
 
+/// Whether the box around the triangle is farther away than `reach`, beyond what long double rounds.
+bool isBeyond(const Corners& corners, const LVec3& p, long double reach) {
+    const LVec3 low = glm::min(glm::min(corners.a, corners.b), corners.c),
+                high = glm::max(glm::max(corners.a, corners.b), corners.c);
+    const LVec3 away = glm::max(glm::max(low - p, p - high), LVec3(0.0L));
+    return glm::dot(away, away) > reach * reach * (1.0L + 1e-15L);
+}
+
 Corners cornersOf(const HapticObject& object, size_t t) {
     return {LVec3(object.vertices[object.indices[3 * t]]), LVec3(object.vertices[object.indices[3 * t + 1]]),
             LVec3(object.vertices[object.indices[3 * t + 2]])};
@@ -58,7 +66,10 @@ BruteContact bruteNearest(const HapticObject& object, const LVec3& p) {
     BruteContact nearest;
     nearest.distance = INFINITY;
     for (size_t t = 0; t < object.triangleCount(); ++t) {
-        BruteContact contact = distanceFrom(cornersOf(object, t), p);
+        const Corners corners = cornersOf(object, t);
+        if (isBeyond(corners, p, nearest.distance))
+            continue;
+        BruteContact contact = distanceFrom(corners, p);
         contact.triangle = t;
         if (contact.distance < nearest.distance)
             nearest = contact;
@@ -69,7 +80,10 @@ BruteContact bruteNearest(const HapticObject& object, const LVec3& p) {
 std::vector<BruteContact> bruteWithin(const HapticObject& object, const LVec3& p, long double reach) {
     std::vector<BruteContact> contacts;
     for (size_t t = 0; t < object.triangleCount(); ++t) {
-        BruteContact contact = distanceFrom(cornersOf(object, t), p);
+        const Corners corners = cornersOf(object, t);
+        if (isBeyond(corners, p, reach))
+            continue;
+        BruteContact contact = distanceFrom(corners, p);
         contact.triangle = t;
         if (contact.distance <= reach)
             contacts.push_back(contact);

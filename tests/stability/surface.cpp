@@ -94,6 +94,12 @@ glm::dvec3 Surface::feltNormal(size_t k, size_t t, const glm::dvec3& closest,
                : normal;
 }
 
+bool Surface::isBeyond(size_t k, size_t t, const glm::dvec3& at, double reach) const {
+    const glm::dvec3 away = at - balls_[k][t].centre;
+    const double outer = balls_[k][t].radius + reach;
+    return glm::dot(away, away) > outer * outer;
+}
+
 Touching Surface::touching(ObjectMotions motions, const glm::dvec3& p, double reach) const {
     Touching result;
     for (size_t k = 0; k < balls_.size(); ++k) {
@@ -102,9 +108,7 @@ Touching Surface::touching(ObjectMotions motions, const glm::dvec3& p, double re
         const glm::dvec3 at = pose.inverse().point(p);
         const double limit = reach / pose.scale;
         for (size_t t = 0; t < balls_[k].size(); ++t) {
-            const glm::dvec3 away = at - balls_[k][t].centre;
-            const double outer = balls_[k][t].radius + limit;
-            if (glm::dot(away, away) > outer * outer)
+            if (isBeyond(k, t, at, limit))
                 continue;
             const BruteContact contact = distanceFrom(cornersOf(object, t), LVec3(at));
             const auto distance = static_cast<double>(contact.distance);
@@ -132,6 +136,8 @@ double Surface::freeSector(size_t k, const std::vector<size_t>& near, const glm:
     const glm::dvec3 quarter = glm::cross(along, zero);
     double left = INFINITY, right = INFINITY;
     for (const size_t t : near) {
+        if (isBeyond(k, t, at, gap))
+            continue;
         const BruteContact contact = distanceFrom(cornersOf(object, t), LVec3(at));
         if (static_cast<double>(contact.distance) > gap)
             continue;
@@ -170,7 +176,7 @@ double Surface::stepAt(size_t k, const std::vector<size_t>& near, std::pair<uint
                    has1 = i[0] == edge.second || i[1] == edge.second || i[2] == edge.second;
         if (has0 && has1)
             ++sharing;
-        else
+        else if (!isBeyond(k, t, at, gap))
             nearest = std::min(nearest,
                                static_cast<double>(distanceFrom(cornersOf(object, t), LVec3(at)).distance));
     }

@@ -49,11 +49,12 @@ class Surface {
         glm::dvec3 centre;
         double radius;
     };
+    /// Whether the ball around a triangle is farther away than `reach`.
+    [[nodiscard]] bool isBeyond(size_t object, size_t triangle, const glm::dvec3& at, double reach) const;
     [[nodiscard]] glm::dvec3 feltNormal(size_t object, size_t triangle, const glm::dvec3& closest,
                                         const glm::dvec3& normal) const;
     [[nodiscard]] double freeSector(size_t object, const std::vector<size_t>& near, const glm::dvec3& at,
                                     const glm::dvec3& along, const glm::dvec3& seenFrom, double gap) const;
-
     [[nodiscard]] double stepAt(size_t object, const std::vector<size_t>& near,
                                 std::pair<uint32_t, uint32_t> edge, const glm::dvec3& at, double gap) const;
 

@@ -237,7 +237,9 @@ class FirstMinute : public WindowTest {
         until("the timeline", [](const Json& s) { return s["timeline"]["looking"].get<bool>(); });
         const auto before = picture();
         display_.click(middleOf("play"));
-        until("the cursor to go on", [](const Json& s) { return s["timeline"]["cursor_s"] > 1.5; });
+        until("the cursor to go on", [](const Json& s) {
+            return s["timeline"]["cursor_s"] > 0.5 * s["timeline"]["length_s"].get<double>();
+        });
         EXPECT_GT(changed(before, picture()), 1e-4) << "the recorded hand is seen";
         display_.click(middleOf("verify"));
         const Json verified =

@@ -9,7 +9,9 @@ namespace touchstone::test {
 
 namespace {
 
-constexpr int kFrames = 80; // ms, two frames and more; what comes faster waits for its frame
+// A frame and more lies between two events, in s as xdotool's sleep takes it. Where frames take longer, ImGui
+// keeps events in their order and gives those that would be lost in one frame a frame each.
+constexpr const char* kFrame = "0.04";
 
 void pause(int milliseconds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
@@ -94,45 +96,38 @@ VirtualDisplay::Place VirtualDisplay::waitForWindow(const std::string& title) co
     throw std::runtime_error("no window called " + title);
 }
 
+// What follows must not come before the pointer: each action ends with the pause.
+
 void VirtualDisplay::move(const Place& place) const {
-    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
-    pause(kFrames); // what follows must not come before the pointer
+    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y), "sleep", kFrame});
 }
 
 void VirtualDisplay::press(int button) const {
-    xdotool({"mousedown", std::to_string(button)});
-    pause(kFrames);
+    xdotool({"mousedown", std::to_string(button), "sleep", kFrame});
 }
 
 void VirtualDisplay::release(int button) const {
-    xdotool({"mouseup", std::to_string(button)});
-    pause(kFrames);
+    xdotool({"mouseup", std::to_string(button), "sleep", kFrame});
 }
 
 void VirtualDisplay::click(const Place& place, int button) const {
-    move(place);
-    press(button);
-    release(button);
+    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y), "sleep", kFrame, "mousedown",
+             std::to_string(button), "sleep", kFrame, "mouseup", std::to_string(button), "sleep", kFrame});
 }
 
 void VirtualDisplay::drag(const Place& from, const Place& to, int button) const {
     constexpr int kSteps = 12;
     move(from);
-    press(button);
-    for (int i = 1; i <= kSteps; ++i) {
-        xdotool({"mousemove", std::to_string(from.x + (to.x - from.x) * i / kSteps),
-                 std::to_string(from.y + (to.y - from.y) * i / kSteps)});
-        pause(40);
-    }
-    pause(kFrames);
-    release(button);
+    std::vector<std::string> words{"mousedown", std::to_string(button), "sleep", kFrame};
+    for (int i = 1; i <= kSteps; ++i)
+        words.insert(words.end(), {"mousemove", std::to_string(from.x + (to.x - from.x) * i / kSteps),
+                                   std::to_string(from.y + (to.y - from.y) * i / kSteps), "sleep", kFrame});
+    words.insert(words.end(), {"mouseup", std::to_string(button), "sleep", kFrame});
+    xdotool(words);
 }
 
 void VirtualDisplay::key(const std::string& name) const {
-    xdotool({"keydown", name});
-    pause(kFrames);
-    xdotool({"keyup", name});
-    pause(kFrames);
+    xdotool({"keydown", name, "sleep", kFrame, "keyup", name, "sleep", kFrame});
 }
 
 void VirtualDisplay::drop(const std::string& title, const std::filesystem::path& file) const {
@@ -145,12 +140,11 @@ void VirtualDisplay::drop(const std::string& title, const std::filesystem::path&
 }
 
 void VirtualDisplay::scroll(const Place& place, int notches) const {
-    xdotool({"mousemove", std::to_string(place.x), std::to_string(place.y)});
-    for (int i = 0; i < std::abs(notches); ++i) {
-        xdotool({"click", notches > 0 ? "4" : "5"});
-        pause(60);
-    }
-    pause(kFrames);
+    std::vector<std::string> words{"mousemove", std::to_string(place.x), std::to_string(place.y), "sleep",
+                                   kFrame};
+    for (int i = 0; i < std::abs(notches); ++i)
+        words.insert(words.end(), {"click", notches > 0 ? "4" : "5", "sleep", kFrame});
+    xdotool(words);
 }
 
 } // namespace touchstone::test
