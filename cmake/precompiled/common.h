@@ -1,6 +1,9 @@
 #pragma once
-// What most sources include, parsed once a build (a quarter to a third of the compile time of a source). Every source
-// still includes what it uses: the debug preset builds without this header.
+// What most sources include, parsed once a build (a quarter to a third of the compile time of a source).
+// Every source still includes what it uses: the debug preset builds without this header.
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,8 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <memory>
 #include <optional>

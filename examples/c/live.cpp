@@ -1,5 +1,5 @@
-// A real-time loop with a callback, own meshes from arrays, and an own device of two functions: a virtual spring that somebody presses
-// into a table for five seconds.
+// A real-time loop with a callback, own meshes from arrays, and an own device of two functions: a virtual
+// spring that somebody presses into a table for five seconds.
 //   c++ -std=c++17 live.cpp $(pkg-config --cflags --libs touchstone) -o live && ./live
 #include <touchstone/touchstone.hpp>
 
@@ -7,7 +7,8 @@
 
 namespace {
 
-/// A hand of 0.3 kg that a spring pulls to a point 5 mm below the table. Both functions run on the servo's thread.
+/// A hand of 0.3 kg that a spring pulls to a point 5 mm below the table. Both functions run on the servo's
+/// thread.
 struct Hand {
     double height = 0.1, velocity = 0.0, force = 0.0, last = 0.0; // m, m/s, N, s
 
@@ -15,7 +16,8 @@ struct Hand {
         Hand& hand = *static_cast<Hand*>(context);
         const double dt = time - hand.last;
         hand.last = time;
-        const double pull = 100.0 * (-0.005 - hand.height) - 8.0 * hand.velocity; // spring and damper of the arm
+        const double pull =
+            100.0 * (-0.005 - hand.height) - 8.0 * hand.velocity; // spring and damper of the arm
         hand.velocity += dt * (pull + hand.force) / 0.3;
         hand.height += dt * hand.velocity;
         reading->position[1] = hand.height;

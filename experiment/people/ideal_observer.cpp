@@ -20,8 +20,8 @@ double Draw::normal() noexcept {
     return radius * std::cos(6.283185307179586 * uniform());
 }
 
-double sensitivity(const Condition& condition, const StrokeDifference& difference, double force, double acuity,
-                   const ObserverNoise& noise, Attention attention) {
+double sensitivity(const Condition& condition, const StrokeDifference& difference, double force,
+                   double acuity, const ObserverNoise& noise, Attention attention) {
     const auto* curve = std::get_if<PlanarStimulus>(&condition.comparison);
     const Stroke nominal;
     // The direction's error scales with the force; that of the depth, with the stiffness, does not.
@@ -66,10 +66,12 @@ SimulatedPerson personOf(uint64_t seed, size_t person, const PeopleSpread& sprea
     return made;
 }
 
-double thresholdOf(DifferenceTable& table, const SimulatedPerson& person, const ObserverNoise& noise, Attention attention) {
+double thresholdOf(DifferenceTable& table, const SimulatedPerson& person, const ObserverNoise& noise,
+                   Attention attention) {
     const StaircaseRule& rule = table.condition().rule;
     const auto right = [&](double level) {
-        return shareRight(sensitivity(table.condition(), table.at(level), person.force, person.acuity, noise, attention));
+        return shareRight(
+            sensitivity(table.condition(), table.at(level), person.force, person.acuity, noise, attention));
     };
     double low = rule.lowest, high = rule.highest;
     if (right(low) < kStaircaseShare)
@@ -79,7 +81,8 @@ double thresholdOf(DifferenceTable& table, const SimulatedPerson& person, const 
         (right(middle) >= kStaircaseShare ? low : high) = middle;
     }
     const double atLow = right(low), atHigh = right(high);
-    return atHigh >= kStaircaseShare ? high : low + (atLow - kStaircaseShare) / std::max(1e-12, atLow - atHigh);
+    return atHigh >= kStaircaseShare ? high
+                                     : low + (atLow - kStaircaseShare) / std::max(1e-12, atLow - atHigh);
 }
 
 } // namespace touchstone::experiment

@@ -1,6 +1,7 @@
 #pragma once
-// An ideal observer of the study's curves and models: it knows both stimuli and is limited by the noise that published
-// just noticeable differences of force and contact location imply, and by nothing else (docs/experiment.md).
+// An ideal observer of the study's curves and models: it knows both stimuli and is limited by the noise that
+// published just noticeable differences of force and contact location imply, and by nothing else
+// (docs/experiment.md).
 
 #include "experiment/plan/study_plan.h"
 #include "experiment/stimulus/model_stroke.h"
@@ -28,14 +29,14 @@ struct ObserverNoise {
 /// What the observer uses.
 enum class Attention : uint8_t {
     Everything, ///< all three differences: ideal
-    /// Where the display moves, the direction of the force is not used: [004 §7] concludes that people rely on
-    /// the tactile sensation then. No number in it.
+    /// Where the display moves, the direction of the force is not used: [004 §7] concludes that people rely
+    /// on the tactile sensation then. No number in it.
     TactileFirst
 };
 
-/// d' between comparison and reference in one interval, of a person whose noise is `acuity` times the observer's
-/// and who presses with `stroke.force`: differences in white noise, so that
-/// d'^2 = exposure / look (sum over channels of the difference's variance / variance of a look).
+/// d' between comparison and reference in one interval, of a person whose noise is `acuity` times the
+/// observer's and who presses with `stroke.force`: differences in white noise, so that d'^2 = exposure / look
+/// (sum over channels of the difference's variance / variance of a look).
 [[nodiscard]] double sensitivity(const Condition& condition, const StrokeDifference& difference, double force,
                                  double acuity, const ObserverNoise& noise = {},
                                  Attention attention = Attention::Everything);
@@ -58,7 +59,8 @@ class DifferenceTable {
     size_t rendered_ = 0;
 };
 
-/// How people differ: logarithms are normal with these standard deviations. An assumption, for planning alone.
+/// How people differ: logarithms are normal with these standard deviations. An assumption, for planning
+/// alone.
 struct PeopleSpread {
     double acuity = 0.3; ///< of the noise
     double force = 0.3;  ///< of how hard they press
@@ -73,7 +75,8 @@ struct SimulatedPerson {
 
 /// The level at which the observer is right in kStaircaseShare of the trials, between the condition's levels;
 /// its ends where there is none between.
-[[nodiscard]] double thresholdOf(DifferenceTable& table, const SimulatedPerson& person, const ObserverNoise& noise = {},
+[[nodiscard]] double thresholdOf(DifferenceTable& table, const SimulatedPerson& person,
+                                 const ObserverNoise& noise = {},
                                  Attention attention = Attention::Everything);
 
 /// Uniform numbers of one stream of a seed, the same on every machine.

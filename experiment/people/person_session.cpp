@@ -79,7 +79,8 @@ struct PersonSession::File {
         path = name;
         descriptor = ::open(name.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
         if (descriptor < 0)
-            fail(errno == EEXIST ? "exists already" : std::string("cannot be written: ") + std::strerror(errno),
+            fail(errno == EEXIST ? "exists already"
+                                 : std::string("cannot be written: ") + std::strerror(errno),
                  errno == EEXIST ? "resume it, or give another person's number" : "check the folder");
         if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
             fail("is open in another program", "end that one first");
@@ -89,7 +90,8 @@ struct PersonSession::File {
     }
 };
 
-PersonSession::PersonSession(const std::filesystem::path& file, const StudyPlan& plan, const SessionStart& start)
+PersonSession::PersonSession(const std::filesystem::path& file, const StudyPlan& plan,
+                             const SessionStart& start)
     : plan_(plan), start_(start), file_(std::make_unique<File>()) {
     begin();
     file_->open(file, O_CREAT | O_EXCL);
@@ -121,7 +123,8 @@ PersonSession PersonSession::read(const std::filesystem::path& file) {
 void PersonSession::begin() {
     order_ = plan_.orderFor(start_.person, start_.pilots);
     if (order_.empty())
-        throw Error("study", plan_.name, start_.pilots ? "it has no pilot condition" : "it has pilot conditions alone",
+        throw Error("study", plan_.name,
+                    start_.pilots ? "it has no pilot condition" : "it has pilot conditions alone",
                     start_.pilots ? "leave out --pilots" : "give --pilots");
     progress_.clear();
     for (const Condition& condition : plan_.conditions) {
@@ -148,27 +151,33 @@ void PersonSession::load(const std::filesystem::path& file, bool resume) {
         try {
             json = Json::parse(line);
         } catch (const Json::exception&) {
-            throw Error(name, place, "it is no JSON: the file was edited or is damaged", "restore the file as it was written");
+            throw Error(name, place, "it is no JSON: the file was edited or is damaged",
+                        "restore the file as it was written");
         }
         if (number == 1 && (!json.is_object() || !json.contains("touchstoneSession")))
             throw Error(name, place, "it is no session", "name a file that touchstone experiment wrote");
         if (number == 1 && json["touchstoneSession"] != kSessionVersion)
-            throw Error(name, place, "it is a session of version " + json["touchstoneSession"].dump() + "; this program has version " +
-                            std::to_string(kSessionVersion), "use the program that wrote it");
+            throw Error(name, place,
+                        "it is a session of version " + json["touchstoneSession"].dump() +
+                            "; this program has version " + std::to_string(kSessionVersion),
+                        "use the program that wrote it");
         const size_t seal = line.rfind(std::string(",\"") + kCheck + "\":\"");
         const std::string body = seal == std::string::npos ? line : line.substr(0, seal) + "}";
         check = checkOf(body, check);
         if (seal == std::string::npos || line + "\n" != sealed(body, check))
-            throw Error(name, place, "it is not as it was written: the file was edited or is damaged", "restore the file as it was written");
+            throw Error(name, place, "it is not as it was written: the file was edited or is damaged",
+                        "restore the file as it was written");
         try {
             take(json, number, name);
         } catch (const Json::exception& error) {
-            throw Error(name, place, std::string("a member is missing or of another kind: ") + error.what(), "");
+            throw Error(name, place, std::string("a member is missing or of another kind: ") + error.what(),
+                        "");
         }
         begin = end + 1;
     }
     if (number == 0)
-        throw Error(name, "", "it has no whole line", "begin a new session: nothing was answered in this one");
+        throw Error(name, "", "it has no whole line",
+                    "begin a new session: nothing was answered in this one");
     if (begin < text.size())
         note_ = "its last line is cut off (" + std::to_string(text.size() - begin) +
                 " bytes): what it was to hold was not yet answered, and is shown again";
@@ -186,13 +195,16 @@ void PersonSession::load(const std::filesystem::path& file, bool resume) {
 }
 
 void PersonSession::take(const Json& line, size_t number, const std::string& name) {
-    const auto wrong = [&](const std::string& problem) { throw Error(name, "line " + std::to_string(number), problem, "restore the file as it was written"); };
+    const auto wrong = [&](const std::string& problem) {
+        throw Error(name, "line " + std::to_string(number), problem, "restore the file as it was written");
+    };
     if (number == 1) {
         start_.person = line.at("person").get<size_t>() - 1;
         start_.seed = line.at("seed").get<uint64_t>();
         start_.pilots = line.at("pilots").get<bool>();
         start_.device = line.at("device").get<std::string>();
-        plan_ = parseStudy(line.at("study").dump(), std::filesystem::path(line.at("folder").get<std::string>()) / "study");
+        plan_ = parseStudy(line.at("study").dump(),
+                           std::filesystem::path(line.at("folder").get<std::string>()) / "study");
         begin();
         settle();
         return;
@@ -207,9 +219,11 @@ void PersonSession::take(const Json& line, size_t number, const std::string& nam
     if (event == "trained") {
         trained_ = true;
     } else if (event == "trial") {
-        if (training() || line.at("level").get<double>() != level() || line.at("referenceFirst").get<bool>() != referenceFirst())
+        if (training() || line.at("level").get<double>() != level() ||
+            line.at("referenceFirst").get<bool>() != referenceFirst())
             wrong("the trial is not the one that follows");
-        apply(line.at("answer").get<int>(), line.at("seconds").at(0).get<double>(), line.at("seconds").at(1).get<double>());
+        apply(line.at("answer").get<int>(), line.at("seconds").at(0).get<double>(),
+              line.at("seconds").at(1).get<double>());
     } else {
         wrong("unknown event '" + event + "'");
     }
@@ -277,7 +291,8 @@ void PersonSession::settle() {
 
 bool PersonSession::done(size_t condition) const {
     const Progress& progress = progress_[condition];
-    return progress.staircase ? progress.staircase->finished() : progress.trials >= plan_.conditions[condition].trials;
+    return progress.staircase ? progress.staircase->finished()
+                              : progress.trials >= plan_.conditions[condition].trials;
 }
 
 size_t PersonSession::trialsOf(size_t condition) const {
@@ -295,16 +310,19 @@ void PersonSession::append(Json line) {
     const uint32_t check = checkOf(body, file_->check);
     const std::string text = sealed(body, check);
     const ssize_t written = ::write(file_->descriptor, text.data(), text.size());
-    if (written != static_cast<ssize_t>(text.size()) || (start_.synchronise && ::fdatasync(file_->descriptor) != 0)) {
+    if (written != static_cast<ssize_t>(text.size()) ||
+        (start_.synchronise && ::fdatasync(file_->descriptor) != 0)) {
         const std::string why = written < 0 ? std::strerror(errno) : "the disk is full";
         (void)!::ftruncate(file_->descriptor, file_->size); // else the next line would join what is left
-        file_->fail("the answer cannot be written: " + why, "make room on the disk; nothing answered before is lost");
+        file_->fail("the answer cannot be written: " + why,
+                    "make room on the disk; nothing answered before is lost");
     }
     file_->check = check;
     file_->size += written;
 }
 
-std::vector<PersonSession> readSessions(const std::filesystem::path& folder, std::vector<std::string>& problems) {
+std::vector<PersonSession> readSessions(const std::filesystem::path& folder,
+                                        std::vector<std::string>& problems) {
     std::vector<std::filesystem::path> files;
     if (!std::filesystem::is_directory(folder))
         throw Error(folder.string(), "", "there is no such folder", "name the folder of the sessions");

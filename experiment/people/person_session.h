@@ -26,22 +26,22 @@ struct SessionStart {
     size_t person = 0; ///< from 0; the row of the Latin square
     uint64_t seed = 0; ///< of the order of the two stimuli of each trial
     bool pilots = false;
-    std::string device{}; ///< what it is felt with, for the record
+    std::string device{};    ///< what it is felt with, for the record
     bool synchronise = true; ///< each line to the disk; false: to the system alone, for simulated people
 };
 
 /// The procedure of a person: conditions in their order, training before each, and in each a staircase or a
 /// fixed number of trials. What is shown next follows from what was answered; nothing can be answered twice.
 ///
-/// The file: one JSON object a line, the first the study and who takes it, each with a CRC-32C of itself and all
-/// lines before it, each written by one call and synchronised. A crash loses at most the line that it cuts off.
-/// One thread.
+/// The file: one JSON object a line, the first the study and who takes it, each with a CRC-32C of itself and
+/// all lines before it, each written by one call and synchronised. A crash loses at most the line that it
+/// cuts off. One thread.
 class PersonSession {
   public:
     /// A new file; throws Error where it exists already.
     PersonSession(const std::filesystem::path& file, const StudyPlan& plan, const SessionStart& start);
-    /// Resumes. A last line that is cut off is moved to FILE.cut and named in `note`. Throws Error, and changes
-    /// nothing, where the file is of another version, was edited, or is open elsewhere.
+    /// Resumes. A last line that is cut off is moved to FILE.cut and named in `note`. Throws Error, and
+    /// changes nothing, where the file is of another version, was edited, or is open elsewhere.
     explicit PersonSession(const std::filesystem::path& file);
     ~PersonSession();
     PersonSession(PersonSession&&) noexcept;

@@ -12,17 +12,18 @@ namespace touchstone::experiment {
 namespace {
 
 /// A threshold that a staircase did not reach is its last level: the analysis needs every cell.
-double runOne(DifferenceTable& table, size_t reversals, const SimulatedPerson& person, const PowerPlan& plan, Draw& draw,
-              double& trials) {
+double runOne(DifferenceTable& table, size_t reversals, const SimulatedPerson& person, const PowerPlan& plan,
+              Draw& draw, double& trials) {
     StaircaseRule rule = table.condition().rule;
     const double share = static_cast<double>(rule.averaged) / static_cast<double>(rule.reversals);
     rule.reversals = reversals;
-    rule.averaged = std::max<size_t>(1, static_cast<size_t>(std::lround(share * static_cast<double>(reversals))));
+    rule.averaged =
+        std::max<size_t>(1, static_cast<size_t>(std::lround(share * static_cast<double>(reversals))));
     rule.largeReversals = std::min(rule.largeReversals, reversals - rule.averaged);
     Staircase staircase(rule);
     while (!staircase.finished()) {
-        const double right = shareRight(sensitivity(table.condition(), table.at(staircase.level()), person.force,
-                                                    person.acuity, plan.noise, plan.attention));
+        const double right = shareRight(sensitivity(table.condition(), table.at(staircase.level()),
+                                                    person.force, person.acuity, plan.noise, plan.attention));
         staircase.answer(draw.uniform() < right);
     }
     trials += static_cast<double>(staircase.trials().size());
@@ -36,7 +37,8 @@ PowerRow rowOf(std::vector<DifferenceTable>& tables, const PowerPlan& plan, size
     row.told.assign(count * (count - 1) / 2, 0.0);
     row.deviation.assign(count, 0.0);
     Draw draw(plan.seed ^ (people << 20) ^ (reversals << 40));
-    const double told = studentizedRangeQuantile(kSignificant, static_cast<int>(count), static_cast<double>((count - 1) * (people - 1)));
+    const double told = studentizedRangeQuantile(kSignificant, static_cast<int>(count),
+                                                 static_cast<double>((count - 1) * (people - 1)));
     const double each = 1.0 / static_cast<double>(plan.experiments);
     for (size_t experiment = 0; experiment < plan.experiments; ++experiment) {
         Thresholds values;

@@ -1,5 +1,6 @@
 #pragma once
-// How many people, and how many trials, a study needs: the whole experiment with simulated people, many times.
+// How many people, and how many trials, a study needs: the whole experiment with simulated people, many
+// times.
 
 #include "experiment/people/ideal_observer.h"
 
@@ -11,9 +12,10 @@ namespace touchstone::experiment {
 
 struct PowerRow {
     size_t people = 0, reversals = 0;
-    double trials = 0.0;      ///< mean, of a person in one condition
-    double anova = 0.0;       ///< share of experiments in which the conditions differ, p < 0.05
-    std::vector<double> told{}; ///< for each pair of conditions: the share in which Tukey's test tells them apart
+    double trials = 0.0; ///< mean, of a person in one condition
+    double anova = 0.0;  ///< share of experiments in which the conditions differ, p < 0.05
+    std::vector<double>
+        told{}; ///< for each pair of conditions: the share in which Tukey's test tells them apart
     std::vector<double> deviation{}; ///< for each condition: mean standard deviation over people, levels
 };
 
@@ -27,8 +29,8 @@ struct PowerPlan {
     Attention attention = Attention::Everything;
 };
 
-/// Of the conditions that `tables` are of; every staircase ends with as many averaged reversals as the study's
-/// share of them. The same plan gives the same rows.
+/// Of the conditions that `tables` are of; every staircase ends with as many averaged reversals as the
+/// study's share of them. The same plan gives the same rows.
 [[nodiscard]] std::vector<PowerRow> powerOf(std::vector<DifferenceTable>& tables, const PowerPlan& plan);
 
 } // namespace touchstone::experiment

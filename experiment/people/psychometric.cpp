@@ -23,11 +23,13 @@ double PsychometricFunction::levelOf(double rightShare) const noexcept {
     return 0.5 * (low + high);
 }
 
-ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function, size_t runs, uint64_t seed) {
+ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function, size_t runs,
+                        uint64_t seed) {
     constexpr double kMostLapses = 0.25; // beyond 0.29 no level has kStaircaseShare of right answers
     if (!std::isfinite(function.middle) || !(function.spread > 0.0) || !std::isfinite(function.spread) ||
         !(function.lapses >= 0.0 && function.lapses <= kMostLapses))
-        throw Error("psychometric function", "", "its spread is not positive, or its lapses lie beyond 0 to 0.25",
+        throw Error("psychometric function", "",
+                    "its spread is not positive, or its lapses lie beyond 0 to 0.25",
                     "give the spread in the unit of the levels and lapses as a share of the answers");
     std::mt19937_64 random(seed);
     ProcedureError error{.target = function.levelOf(kStaircaseShare), .runs = runs};
@@ -48,7 +50,9 @@ ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& f
     }
     const auto ended = static_cast<double>(error.ended);
     error.bias = error.ended > 0 ? sum / ended : 0.0;
-    error.spread = error.ended > 1 ? std::sqrt(std::max(0.0, (squares - ended * error.bias * error.bias) / (ended - 1.0))) : 0.0;
+    error.spread = error.ended > 1
+                       ? std::sqrt(std::max(0.0, (squares - ended * error.bias * error.bias) / (ended - 1.0)))
+                       : 0.0;
     error.trials = runs > 0 ? trials / static_cast<double>(runs) : 0.0;
     return error;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// A simulated person whose psychometric function is known, to judge a procedure before people's time is spent.
+// A simulated person whose psychometric function is known, to judge a procedure before people's time is
+// spent.
 
 #include "experiment/procedure/staircase.h"
 
@@ -7,8 +8,8 @@
 
 namespace touchstone::experiment {
 
-/// Share of right answers in two-interval forced choice: 1/2 + (1/2 - lapses) Phi((middle - level) / spread), Phi
-/// the cumulative normal distribution. Levels, `middle` and `spread` have one unit.
+/// Share of right answers in two-interval forced choice: 1/2 + (1/2 - lapses) Phi((middle - level) / spread),
+/// Phi the cumulative normal distribution. Levels, `middle` and `spread` have one unit.
 struct PsychometricFunction {
     double middle = 0.0;
     double spread = 1.0; ///< standard deviation
@@ -29,9 +30,9 @@ struct ProcedureError {
     size_t runs = 0;
 };
 
-/// Runs the staircase `runs` times on answers drawn from the function. The same seed gives the same result. Throws
-/// Error where the function's spread is not positive or its lapses lie beyond 0 to 0.25.
-[[nodiscard]] ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function, size_t runs,
-                                      uint64_t seed);
+/// Runs the staircase `runs` times on answers drawn from the function. The same seed gives the same result.
+/// Throws Error where the function's spread is not positive or its lapses lie beyond 0 to 0.25.
+[[nodiscard]] ProcedureError simulate(const StaircaseRule& rule, const PsychometricFunction& function,
+                                      size_t runs, uint64_t seed);
 
 } // namespace touchstone::experiment

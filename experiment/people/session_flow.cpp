@@ -36,7 +36,8 @@ void SessionFlow::press(Key key, double now) {
         session_.answer(chosen_, first_, now - since_);
         next(session_.finished() ? Page::Finished : session_.training() ? Page::Training : Page::First, now);
         break;
-    case Page::Finished: break;
+    case Page::Finished:
+        break;
     }
 }
 
@@ -49,8 +50,9 @@ std::optional<SessionFlow::Shown> SessionFlow::shown() const {
 
 size_t SessionFlow::part() const {
     const auto& order = session_.order();
-    return session_.finished() ? order.size()
-                               : static_cast<size_t>(std::ranges::find(order, session_.condition()) - order.begin());
+    return session_.finished()
+               ? order.size()
+               : static_cast<size_t>(std::ranges::find(order, session_.condition()) - order.begin());
 }
 
 } // namespace touchstone::experiment

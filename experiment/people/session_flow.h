@@ -29,8 +29,8 @@ class SessionFlow {
     /// `session` outlives it. A resumed one begins with the instructions, too.
     explicit SessionFlow(PersonSession& session) : session_(session) {}
 
-    /// `now`: s, any steady clock. A key without a meaning on this page does nothing. Throws Error where the answer
-    /// cannot be written; the page stays, and Enter tries again.
+    /// `now`: s, any steady clock. A key without a meaning on this page does nothing. Throws Error where the
+    /// answer cannot be written; the page stays, and Enter tries again.
     void press(Key key, double now);
 
     [[nodiscard]] Page page() const { return page_; }

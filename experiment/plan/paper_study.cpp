@@ -2,8 +2,8 @@
 
 namespace touchstone::experiment {
 
-/// Steps and first levels: the paper calibrated its own by pilots and does not print them. Large steps are about
-/// half of the spread of its people, small ones a quarter.
+/// Steps and first levels: the paper calibrated its own by pilots and does not print them. Large steps are
+/// about half of the spread of its people, small ones a quarter.
 std::string_view paperStudy() {
     return R"json({
   "touchstoneStudy": 1,

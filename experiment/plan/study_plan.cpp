@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 /// One object of the file, with its place for messages. Every member must be named by `only`.
 class Part {
   public:
-    Part(const Json& json, std::string file, std::string place) : json_(json), file_(std::move(file)), place_(std::move(place)) {
+    Part(const Json& json, std::string file, std::string place)
+        : json_(json), file_(std::move(file)), place_(std::move(place)) {
         if (!json_.is_object())
             refuse("it is no object", "see touchstone experiment --print-study");
     }
@@ -51,7 +52,9 @@ class Part {
             refuse(std::string("'") + key + "' is no number", "give it as a number");
         return at(key).get<double>();
     }
-    [[nodiscard]] double number(const char* key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+    [[nodiscard]] double number(const char* key, double otherwise) const {
+        return has(key) ? number(key) : otherwise;
+    }
     [[nodiscard]] size_t count(const char* key, size_t otherwise, size_t most) const {
         if (!has(key))
             return otherwise;
@@ -79,7 +82,9 @@ class Part {
         }
         return static_cast<size_t>(found - names.begin());
     }
-    [[nodiscard]] std::string inside(const char* key) const { return place_.empty() ? key : place_ + "." + key; }
+    [[nodiscard]] std::string inside(const char* key) const {
+        return place_.empty() ? key : place_ + "." + key;
+    }
     [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const {
         throw Error(file_, place_, problem, remedy);
     }
@@ -108,7 +113,8 @@ std::vector<glm::dvec2> readPoints(const Part& part) {
         part.refuse("'points' is no list", "give [[x, y], ...] in metres");
     for (const Json& point : part.at("points")) {
         if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
-            part.refuse("point " + std::to_string(points.size()) + " is not [x, y]", "give two numbers in metres");
+            part.refuse("point " + std::to_string(points.size()) + " is not [x, y]",
+                        "give two numbers in metres");
         points.emplace_back(point[0].get<double>(), point[1].get<double>());
     }
     return points;
@@ -139,7 +145,8 @@ PlanarStimulus readPlanar(const Part& part, const PlanarRendering& usual) {
     if (part.has("force"))
         stimulus.rendering.force = static_cast<PlanarForce>(part.oneOf("force", kPlanarForceNames));
     if (part.has("location"))
-        stimulus.rendering.location = static_cast<PlanarLocation>(part.oneOf("location", kPlanarLocationNames));
+        stimulus.rendering.location =
+            static_cast<PlanarLocation>(part.oneOf("location", kPlanarLocationNames));
     return stimulus;
 }
 
@@ -149,7 +156,8 @@ ModelStimulus readModel(const Part& part, const std::filesystem::path& folder) {
     const std::filesystem::path given = part.text("model");
     stimulus.model = given.is_absolute() ? given : folder / given;
     if (!std::filesystem::exists(stimulus.model))
-        part.refuse("there is no file " + stimulus.model.string(), "name the model relative to the study's folder");
+        part.refuse("there is no file " + stimulus.model.string(),
+                    "name the model relative to the study's folder");
     if (!part.has("set"))
         return stimulus;
     if (!part.at("set").is_object())
@@ -164,7 +172,8 @@ ModelStimulus readModel(const Part& part, const std::filesystem::path& folder) {
     return stimulus;
 }
 
-StimulusChoice readStimulus(const Part& part, const PlanarRendering& usual, const std::filesystem::path& folder) {
+StimulusChoice readStimulus(const Part& part, const PlanarRendering& usual,
+                            const std::filesystem::path& folder) {
     if (part.has("model"))
         return readModel(part, folder);
     return readPlanar(part, usual);
@@ -196,7 +205,8 @@ void readVaried(const Part& part, const StaircaseRule& usual, Condition& conditi
             part.refuse("a curve has no settings to vary", "vary \"segments\", or compare models");
         for (const double end : {condition.easy, condition.hard}) {
             HapticSettings trial;
-            if (const std::string problem = setSetting(trial, condition.setting, std::to_string(end)); !problem.empty())
+            if (const std::string problem = setSetting(trial, condition.setting, std::to_string(end));
+                !problem.empty())
                 part.refuse("vary: " + problem, "see touchstone --help");
         }
     }
@@ -220,8 +230,8 @@ void readVaried(const Part& part, const StaircaseRule& usual, Condition& conditi
 
 Condition readCondition(const Part& part, const PlanarRendering& rendering, const StaircaseRule& rule,
                         const std::filesystem::path& folder) {
-    part.only({"name", "title", "reference", "comparison", "vary", "start", "largeStep", "smallStep", "lowest",
-               "highest", "trials", "pilot"});
+    part.only({"name", "title", "reference", "comparison", "vary", "start", "largeStep", "smallStep",
+               "lowest", "highest", "trials", "pilot"});
     Condition condition;
     condition.name = part.text("name");
     condition.title = part.has("title") ? part.text("title") : condition.name;
@@ -231,7 +241,8 @@ Condition readCondition(const Part& part, const PlanarRendering& rendering, cons
     if (condition.reference.index() != condition.comparison.index())
         part.refuse("it compares a curve with a model", "compare two curves, or two renderings of models");
     if (const auto* reference = std::get_if<PlanarStimulus>(&condition.reference);
-        reference != nullptr && reference->curve == PlanarStimulus::Curve::Polygon && reference->segments == 0)
+        reference != nullptr && reference->curve == PlanarStimulus::Curve::Polygon &&
+        reference->segments == 0)
         part.refuse("the reference's polygon has no 'segments'", "only the comparison's are varied");
     readVaried(part, rule, condition);
     if (const auto* polygon = std::get_if<PlanarStimulus>(&condition.comparison);
@@ -270,21 +281,24 @@ StudyPlan parseStudy(const std::string& text, const std::filesystem::path& name)
     try {
         plan.source = Json::parse(text);
     } catch (const Json::exception& error) {
-        throw Error(name.string(), "", std::string("it is no JSON: ") + error.what(), "see touchstone experiment --print-study");
+        throw Error(name.string(), "", std::string("it is no JSON: ") + error.what(),
+                    "see touchstone experiment --print-study");
     }
     const Part study(plan.source, name.string(), "");
     if (!study.has("touchstoneStudy"))
         study.refuse("it is no study", "see touchstone experiment --print-study");
     if (study.number("touchstoneStudy") != kStudyVersion)
-        study.refuse("it is a study of version " + study.at("touchstoneStudy").dump() + "; this program reads version " +
-                         std::to_string(kStudyVersion),
+        study.refuse("it is a study of version " + study.at("touchstoneStudy").dump() +
+                         "; this program reads version " + std::to_string(kStudyVersion),
                      "use the program that wrote it");
     study.only({"touchstoneStudy", "name", "question", "order", "finger", "staircase", "conditions"});
     plan.name = study.text("name");
     plan.question = study.text("question");
     if (study.has("order"))
-        plan.order = static_cast<Order>(study.oneOf("order", std::array<std::string_view, 2>{"latinSquare", "given"}));
-    const PlanarRendering rendering = study.has("finger") ? readFinger(study.part("finger")) : PlanarRendering{};
+        plan.order =
+            static_cast<Order>(study.oneOf("order", std::array<std::string_view, 2>{"latinSquare", "given"}));
+    const PlanarRendering rendering =
+        study.has("finger") ? readFinger(study.part("finger")) : PlanarRendering{};
     const StaircaseRule rule = study.has("staircase") ? readRule(study.part("staircase")) : StaircaseRule{};
     const Json& conditions = study.at("conditions");
     if (!conditions.is_array() || conditions.empty() || conditions.size() > kMostConditions)

@@ -22,7 +22,7 @@ struct PlanarStimulus {
     enum class Curve : uint8_t { Arc, Polygon, Points };
     Curve curve = Curve::Arc;
     SmoothArc arc{};                  ///< of Arc and Polygon
-    size_t segments = 0;            ///< of Polygon; 0: the level
+    size_t segments = 0;              ///< of Polygon; 0: the level
     std::vector<glm::dvec2> points{}; ///< m, of Points
     bool closed = false;
     PlanarRendering rendering{};
@@ -49,12 +49,14 @@ struct Condition {
     Varied varied = Varied::Segments;
     std::string setting{}; ///< where a setting is varied
     double easy = 0.0, hard = 0.0;
-    StaircaseRule rule{};  ///< not where nothing is varied
-    size_t trials = 0;   ///< where nothing is varied
-    bool pilot = false;  ///< in no Latin square and no analysis of variance; for some people only
+    StaircaseRule rule{}; ///< not where nothing is varied
+    size_t trials = 0;    ///< where nothing is varied
+    bool pilot = false;   ///< in no Latin square and no analysis of variance; for some people only
 
     /// The value of `setting` at a level.
-    [[nodiscard]] double settingAt(double level) const noexcept { return easy + 0.01 * level * (hard - easy); }
+    [[nodiscard]] double settingAt(double level) const noexcept {
+        return easy + 0.01 * level * (hard - easy);
+    }
 };
 
 enum class Order : uint8_t { LatinSquare, Given };
@@ -72,8 +74,8 @@ struct StudyPlan {
     [[nodiscard]] std::vector<size_t> orderFor(size_t person, bool pilots = false) const;
 };
 
-/// `name`: of the file, for messages; models are sought beside it. Throws Error that names the place, for text
-/// that is no study, an unknown member, and for polylines that Polyline refuses.
+/// `name`: of the file, for messages; models are sought beside it. Throws Error that names the place, for
+/// text that is no study, an unknown member, and for polylines that Polyline refuses.
 [[nodiscard]] StudyPlan parseStudy(const std::string& text, const std::filesystem::path& name);
 [[nodiscard]] StudyPlan readStudy(const std::filesystem::path& file);
 

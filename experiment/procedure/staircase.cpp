@@ -11,7 +11,9 @@ namespace touchstone::experiment {
 namespace {
 
 void check(const StaircaseRule& rule) {
-    const auto refuse = [](const char* problem, const char* remedy) { throw Error("staircase", "", problem, remedy); };
+    const auto refuse = [](const char* problem, const char* remedy) {
+        throw Error("staircase", "", problem, remedy);
+    };
     for (const double value : {rule.start, rule.largeStep, rule.smallStep, rule.lowest, rule.highest})
         if (!std::isfinite(value))
             refuse("a number is not finite", "give levels and steps as numbers");
@@ -37,7 +39,8 @@ void Staircase::answer(bool right) {
         turn = Direction::Down;
     else if (++rightInARow_ == 2)
         turn = Direction::Up;
-    trials_.push_back({level_, right, turn != Direction::None && direction_ != Direction::None && turn != direction_});
+    trials_.push_back(
+        {level_, right, turn != Direction::None && direction_ != Direction::None && turn != direction_});
     if (turn == Direction::None)
         return;
     rightInARow_ = 0;

@@ -16,13 +16,13 @@ struct StaircaseRule {
     double smallStep = 1.0;
     double lowest = 0.0, highest = 0.0; ///< a level never leaves them
     size_t largeReversals = 3;
-    size_t reversals = 11; ///< ends the procedure
-    size_t averaged = 6;   ///< of the last reversals: the threshold is the mean of their levels
+    size_t reversals = 11;   ///< ends the procedure
+    size_t averaged = 6;     ///< of the last reversals: the threshold is the mean of their levels
     size_t mostTrials = 400; ///< ends it, too: answers at random never come to an end otherwise
 };
 
-/// One condition of one person. A level rises after two right answers in a row and falls after each wrong one; a
-/// reversal is an answer that turns the direction, at its level.
+/// One condition of one person. A level rises after two right answers in a row and falls after each wrong
+/// one; a reversal is an answer that turns the direction, at its level.
 class Staircase {
   public:
     struct Trial {
@@ -40,7 +40,9 @@ class Staircase {
     /// Answers the trial at level(). Does nothing after the end.
     void answer(bool right);
 
-    [[nodiscard]] bool finished() const noexcept { return reversals_.size() >= rule_.reversals || trials_.size() >= rule_.mostTrials; }
+    [[nodiscard]] bool finished() const noexcept {
+        return reversals_.size() >= rule_.reversals || trials_.size() >= rule_.mostTrials;
+    }
     /// Mean level of the last reversals; none before all have been seen.
     [[nodiscard]] std::optional<double> threshold() const noexcept;
     [[nodiscard]] std::span<const Trial> trials() const noexcept { return trials_; }

@@ -34,13 +34,12 @@ double rangeWithin(double w, int groups) {
     if (w <= 0.0)
         return 0.0;
     constexpr double kFar = 8.5; // phi is 1e-16 there
-    const auto density = [&](double z) {
-        return phi(z) * std::pow(normalBetween(z - w, z), groups - 1);
-    };
+    const auto density = [&](double z) { return phi(z) * std::pow(normalBetween(z - w, z), groups - 1); };
     double sum = 0.0;
     constexpr int kPanels = 3;
     for (int i = 0; i < kPanels; ++i)
-        sum += Quadrature::integrate(density, -kFar + 2.0 * kFar * i / kPanels, -kFar + 2.0 * kFar * (i + 1) / kPanels);
+        sum += Quadrature::integrate(density, -kFar + 2.0 * kFar * i / kPanels,
+                                     -kFar + 2.0 * kFar * (i + 1) / kPanels);
     return std::min(1.0, groups * sum);
 }
 
@@ -48,7 +47,8 @@ double rangeWithin(double w, int groups) {
 
 double fTail(double f, double between, double within) {
     if (!(between > 0.0) || !(within > 0.0))
-        throw Error("F distribution", "", "its degrees of freedom are not positive", "more people or conditions");
+        throw Error("F distribution", "", "its degrees of freedom are not positive",
+                    "more people or conditions");
     if (std::isnan(f))
         return f;
     if (f <= 0.0)
@@ -61,12 +61,14 @@ double fTail(double f, double between, double within) {
 double tQuantile(double confidence, double degrees) {
     if (!(degrees > 0.0) || !(confidence > 0.0 && confidence < 1.0))
         throw Error("t distribution", "", "its degrees of freedom are not positive", "two people at least");
-    return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), 0.5 * (1.0 - confidence)));
+    return boost::math::quantile(
+        boost::math::complement(boost::math::students_t(degrees), 0.5 * (1.0 - confidence)));
 }
 
 double studentizedRangeTail(double q, int groups, double degrees) {
     if (groups < 2 || !(degrees >= 1.0))
-        throw Error("studentized range", "", "it needs two groups and one degree of freedom", "more people or conditions");
+        throw Error("studentized range", "", "it needs two groups and one degree of freedom",
+                    "more people or conditions");
     if (std::isnan(q))
         return q;
     if (q <= 0.0)
@@ -85,7 +87,8 @@ double studentizedRangeTail(double q, int groups, double degrees) {
     double sum = 0.0;
     constexpr int kPanels = 3;
     for (int i = 0; i < kPanels; ++i)
-        sum += Quadrature::integrate(tail, low + (high - low) * i / kPanels, low + (high - low) * (i + 1) / kPanels);
+        sum += Quadrature::integrate(tail, low + (high - low) * i / kPanels,
+                                     low + (high - low) * (i + 1) / kPanels);
     return std::clamp(sum, 0.0, 1.0);
 }
 

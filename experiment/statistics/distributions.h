@@ -3,8 +3,8 @@
 
 namespace touchstone::experiment {
 
-/// P(F > f) with `between` and `within` degrees of freedom (Boost.Math). Throws Error for degrees that are not
-/// positive. 1 for f <= 0, NaN for NaN.
+/// P(F > f) with `between` and `within` degrees of freedom (Boost.Math). Throws Error for degrees that are
+/// not positive. 1 for f <= 0, NaN for NaN.
 [[nodiscard]] double fTail(double f, double between, double within);
 /// The t of a two-sided interval of `confidence` (0.95) with `degrees` of freedom.
 [[nodiscard]] double tQuantile(double confidence, double degrees);

@@ -13,7 +13,9 @@ namespace touchstone::experiment {
 namespace {
 
 void check(const Thresholds& values) {
-    const auto refuse = [](const char* problem, const char* remedy) { throw Error("analysis of variance", "", problem, remedy); };
+    const auto refuse = [](const char* problem, const char* remedy) {
+        throw Error("analysis of variance", "", problem, remedy);
+    };
     if (values.size() < 2)
         refuse("it needs two people at least", "run more people");
     if (values.front().size() < 2)
@@ -29,12 +31,15 @@ void check(const Thresholds& values) {
 FTest fTest(double between, double degreesBetween, double within, double degreesWithin) {
     FTest test{.between = degreesBetween, .within = degreesWithin, .error = within / degreesWithin};
     const double mean = between / degreesBetween;
-    test.f = test.error > 0.0 ? mean / test.error : mean > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+    test.f = test.error > 0.0 ? mean / test.error
+             : mean > 0.0     ? std::numeric_limits<double>::infinity()
+                              : 0.0;
     test.p = fTail(test.f, degreesBetween, degreesWithin);
     return test;
 }
 
-std::vector<Comparison> tukey(const std::vector<Mean>& means, const FTest& test, size_t people, bool probabilities) {
+std::vector<Comparison> tukey(const std::vector<Mean>& means, const FTest& test, size_t people,
+                              bool probabilities) {
     std::vector<Comparison> pairs;
     const double scale = std::sqrt(test.error / static_cast<double>(people));
     for (size_t i = 0; i < means.size(); ++i)
@@ -115,8 +120,8 @@ Variance analyse(const Thresholds& values, bool probabilities) {
     result.repeated = fTest(between, k - 1.0, std::max(0.0, within - persons), (k - 1.0) * (n - 1.0));
     result.independent = fTest(between, k - 1.0, within, k * (n - 1.0));
     result.epsilon = sphericity(values, result.means);
-    result.correctedP =
-        fTail(result.repeated.f, result.epsilon * result.repeated.between, result.epsilon * result.repeated.within);
+    result.correctedP = fTail(result.repeated.f, result.epsilon * result.repeated.between,
+                              result.epsilon * result.repeated.within);
     result.tukey = tukey(result.means, result.repeated, people, probabilities);
     result.tukeyIndependent = tukey(result.means, result.independent, people, probabilities);
     return result;

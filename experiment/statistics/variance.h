@@ -29,12 +29,12 @@ struct Comparison {
 };
 
 struct Variance {
-    std::vector<Mean> means{};    ///< by condition
-    FTest repeated{};             ///< people are blocks: F(k - 1, (k - 1)(n - 1))
-    FTest independent{};          ///< as if each value came from another person: F(k - 1, k (n - 1)), as [004] reports
-    double epsilon = 1.0;       ///< Greenhouse and Geisser's: how far from sphericity, 1/(k - 1)..1
-    double correctedP = 1.0;    ///< of `repeated` with both degrees times epsilon
-    std::vector<Comparison> tukey{};            ///< all pairs, with the error of `repeated`
+    std::vector<Mean> means{}; ///< by condition
+    FTest repeated{};          ///< people are blocks: F(k - 1, (k - 1)(n - 1))
+    FTest independent{}; ///< as if each value came from another person: F(k - 1, k (n - 1)), as [004] reports
+    double epsilon = 1.0;            ///< Greenhouse and Geisser's: how far from sphericity, 1/(k - 1)..1
+    double correctedP = 1.0;         ///< of `repeated` with both degrees times epsilon
+    std::vector<Comparison> tukey{}; ///< all pairs, with the error of `repeated`
     std::vector<Comparison> tukeyIndependent{}; ///< with that of `independent`
 };
 

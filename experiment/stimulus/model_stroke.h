@@ -25,9 +25,10 @@ class ModelStore {
     std::map<std::filesystem::path, Opened> opened_;
 };
 
-/// Compares a condition's models at a level. The hand goes to and fro over the middle of the reference, from left to
-/// right as seen from above, `stroke.force` / 600 N/m below what is highest there, on one path for both. Constant
-/// differences do not count, as for curves; there is no contact location. Throws Error where the stroke meets nothing.
+/// Compares a condition's models at a level. The hand goes to and fro over the middle of the reference, from
+/// left to right as seen from above, `stroke.force` / 600 N/m below what is highest there, on one path for
+/// both. Constant differences do not count, as for curves; there is no contact location. Throws Error where
+/// the stroke meets nothing.
 [[nodiscard]] StrokeDifference compareModels(const Condition& condition, double level, ModelStore& models,
                                              const Stroke& stroke = {});
 

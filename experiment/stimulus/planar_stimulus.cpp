@@ -12,9 +12,11 @@ PlanarSurface surfaceOf(const PlanarStimulus& stimulus, double level) {
     case PlanarStimulus::Curve::Arc:
         return PlanarSurface(stimulus.arc);
     case PlanarStimulus::Curve::Polygon:
-        return PlanarSurface(polygonOf(stimulus.arc, stimulus.segments > 0 ? stimulus.segments
-                                                                           : static_cast<size_t>(std::lround(level))));
-    case PlanarStimulus::Curve::Points: break;
+        return PlanarSurface(polygonOf(stimulus.arc, stimulus.segments > 0
+                                                         ? stimulus.segments
+                                                         : static_cast<size_t>(std::lround(level))));
+    case PlanarStimulus::Curve::Points:
+        break;
     }
     return PlanarSurface(Polyline(stimulus.points, stimulus.closed));
 }
@@ -22,7 +24,8 @@ PlanarSurface surfaceOf(const PlanarStimulus& stimulus, double level) {
 StrokeDifference compare(const PlanarStimulus& reference, const PlanarStimulus& comparison, double level,
                          const Stroke& stroke) {
     if (reference.curve != PlanarStimulus::Curve::Arc)
-        throw Error("observer", "", "its reference is no smooth arc", "a curve that is drawn by points is for people");
+        throw Error("observer", "", "its reference is no smooth arc",
+                    "a curve that is drawn by points is for people");
     const PlanarSurface smooth = surfaceOf(reference, level), other = surfaceOf(comparison, level);
     const ArcFinger finger;
     PlanarTouch first(smooth, reference.rendering, finger), second(other, comparison.rendering, finger);
@@ -38,7 +41,8 @@ StrokeDifference compare(const PlanarStimulus& reference, const PlanarStimulus& 
         const FingerPose pose{.pad = centre - glm::dvec2(0.0, finger.radius)};
         const PlanarTouch::Felt a = first.step(pose), b = second.step(pose);
         const glm::dvec2 force = b.force - a.force;
-        const glm::dvec3 difference(glm::dot(force, tangent), glm::dot(force, normal), b.location - a.location);
+        const glm::dvec3 difference(glm::dot(force, tangent), glm::dot(force, normal),
+                                    b.location - a.location);
         mean += difference;
         squares += difference * difference;
         ++sum.ticks;

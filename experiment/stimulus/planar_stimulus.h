@@ -17,8 +17,8 @@ struct Stroke {
     double rateHz = 1000.0; ///< of the servo
 };
 
-/// Variances over the stroke of comparison - reference: a constant difference is taken up by the hand, which sets
-/// its mean force itself and does not know where the surface is to a hundredth of a millimetre.
+/// Variances over the stroke of comparison - reference: a constant difference is taken up by the hand, which
+/// sets its mean force itself and does not know where the surface is to a hundredth of a millimetre.
 struct StrokeDifference {
     double tangential = 0.0; ///< N^2, along the reference's tangent
     double normal = 0.0;     ///< N^2
@@ -26,8 +26,8 @@ struct StrokeDifference {
     size_t ticks = 0;
 };
 
-/// Renders both stimuli tick by tick as the servo does, with the finger on one path (pitch 0). The reference is a
-/// smooth arc. Throws Error for another one.
+/// Renders both stimuli tick by tick as the servo does, with the finger on one path (pitch 0). The reference
+/// is a smooth arc. Throws Error for another one.
 [[nodiscard]] StrokeDifference compare(const PlanarStimulus& reference, const PlanarStimulus& comparison,
                                        double level, const Stroke& stroke = {});
 

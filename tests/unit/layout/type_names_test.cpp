@@ -36,10 +36,8 @@ void scan(std::istream& text, const std::string& file, Definitions& definitions)
 
 Definitions definitionsIn(const fs::path& root) {
     Definitions definitions;
-    for (const char* library : {"api", "devices", "engine", "experiment", "haptics", "renderer", "session",
-                                "sound", "study", "workbench", "world"}) {
-        if (!fs::exists(root / library))
-            continue;
+    for (const char* library : {"api", "assets", "devices", "engine", "experiment", "haptics", "renderer",
+                                "server", "session", "sound", "study", "workbench"}) {
         for (const auto& entry : fs::recursive_directory_iterator(root / library)) {
             if (entry.path().extension() != ".h")
                 continue;
