@@ -1,5 +1,7 @@
 #include "engine/core/json_number.h"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <charconv>
 #include <cmath>

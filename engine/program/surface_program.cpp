@@ -3,6 +3,8 @@
 #include "engine/core/error.h"
 #include "engine/program/program_compiler.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

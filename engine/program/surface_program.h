@@ -4,7 +4,7 @@
 
 #include "engine/program/program_source.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <cstdint>

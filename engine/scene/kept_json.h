@@ -1,13 +1,12 @@
 #pragma once
 // Parts of a file that are not yet used: kept for saving and for `inspect`.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 
 namespace touchstone {
 
@@ -17,22 +16,13 @@ class KeptJson {
   public:
     KeptJson() = default; ///< null
     KeptJson(std::nullptr_t) {}
-    explicit KeptJson(nlohmann::json value)
-        : value_(value.is_null() ? nullptr : std::make_shared<const nlohmann::json>(std::move(value))) {}
+    explicit KeptJson(nlohmann::json value);
 
-    operator const nlohmann::json&() const { // NOLINT: implicit on purpose
-        static const nlohmann::json kNull;
-        return value_ != nullptr ? *value_ : kNull;
-    }
+    operator const nlohmann::json&() const; // NOLINT: implicit on purpose
     [[nodiscard]] bool is_null() const { return value_ == nullptr; }
-    [[nodiscard]] std::string value(const char* name, const char* otherwise) const {
-        return static_cast<const nlohmann::json&>(*this).value(name, otherwise);
-    }
+    [[nodiscard]] std::string value(const char* name, const char* otherwise) const;
 
-    friend bool operator==(const KeptJson& a, const KeptJson& b) {
-        return a.value_ == b.value_ ||
-               static_cast<const nlohmann::json&>(a) == static_cast<const nlohmann::json&>(b);
-    }
+    friend bool operator==(const KeptJson& a, const KeptJson& b);
     template <class Json>
     friend void to_json(Json& json, const KeptJson& kept) {
         json = static_cast<const nlohmann::json&>(kept);

@@ -2,9 +2,8 @@
 // A material's program, ready for the servo.
 
 #include "engine/program/surface_program.h"
+#include "engine/scene/kept_json.h"
 #include "haptics/program/register_program.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <map>
@@ -16,7 +15,7 @@ namespace touchstone::program {
 
 /// Persistent textures that the model's file has values of.
 struct StartTextures {
-    nlohmann::json stated; ///< as in the file
+    KeptJson stated; ///< as in the file
     PersistentTextureSize size;
     /// By instance of the scene (Scene::instances).
     std::map<int, std::shared_ptr<const std::vector<float>>> values;

@@ -4,6 +4,8 @@
 #include "engine/import/materials/texture_values.h"
 #include "engine/scene/program_frame.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -26,10 +28,10 @@ std::shared_ptr<const program::StartTextures> startTextures(const Scene& source,
         return nullptr;
     const nlohmann::json& stated = (*declared)["values"];
     if (before != nullptr && before->start != nullptr && before->start->size == felt.texture &&
-        before->start->stated == stated)
+        before->start->stated == KeptJson(stated))
         return before->start;
     auto start = std::make_shared<program::StartTextures>();
-    start->stated = stated;
+    start->stated = KeptJson(stated);
     start->size = felt.texture;
     const LoadOptions options;
     const ImportContext context(source.path, options);

@@ -3,6 +3,8 @@
 #include "engine/program/surface_program.h"
 #include "tests/screenshot/renderer_fixture.h"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cstdio>
 #include <fstream>

@@ -12,6 +12,8 @@
 #include "tests/valid_files/draw.h"
 #include "workbench/figures/inspection.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,6 +4,8 @@
 #include "haptics/shape/field/mesh_to_field.h"
 #include "study/timing/bench_scene.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -3,7 +3,7 @@
 
 #include "workbench/options/commands.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace touchstone {
 

@@ -6,6 +6,8 @@
 #include "study/timing/bench_scene.h"
 #include "workbench/figures/settings_json.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -11,6 +11,7 @@
 #include "workbench/figures/settings_json.h"
 #include "workbench/options/commands.h"
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <array>

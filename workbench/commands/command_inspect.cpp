@@ -8,6 +8,8 @@
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <string>

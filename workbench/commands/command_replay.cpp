@@ -9,6 +9,8 @@
 #include "workbench/options/commands.h"
 #include "workbench/timeline/recorded_scenes.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>

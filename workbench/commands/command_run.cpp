@@ -32,6 +32,8 @@
 #include "workbench/options/gpu_options.h"
 #include "workbench/screen/overlays.h"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cstdio>
 #include <memory>

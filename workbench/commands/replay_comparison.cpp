@@ -5,6 +5,8 @@
 #include "haptics/recording/recording_reader.h"
 #include "workbench/files/force_figure.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>

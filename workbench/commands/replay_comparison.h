@@ -5,7 +5,7 @@
 #include "workbench/figures/force_comparison.h"
 #include "workbench/options/commands.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

@@ -5,6 +5,8 @@
 #include "workbench/figures/settings_json.h"
 #include "workbench/hand/device_menu.h"
 
+#include <nlohmann/json.hpp>
+
 namespace touchstone {
 
 RunHands::RunHands(const RunOptions& options) : options_(options) {

@@ -4,6 +4,8 @@
 #include "engine/time/seconds_now.h"
 #include "workbench/files/sculpted_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 

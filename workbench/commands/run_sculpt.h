@@ -6,7 +6,7 @@
 #include "workbench/model/model.h"
 #include "workbench/options/commands.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -2,6 +2,8 @@
 
 #include "workbench/files/sculpted_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <string>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "haptics/scene/scene_sculptor.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <memory>

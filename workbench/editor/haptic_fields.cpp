@@ -3,6 +3,8 @@
 #include "engine/core/error.h"
 #include "workbench/editor/texture_fields.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,10 +1,13 @@
 #include "workbench/editor/program_worker.h"
 
 #include "engine/core/error.h"
+#include "engine/core/progress.h"
 #include "engine/program/program_compiler.h"
 #include "engine/time/seconds_now.h"
 #include "haptics/program/load_program.h"
 #include "workbench/figures/program_figures.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>

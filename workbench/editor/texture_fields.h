@@ -4,7 +4,7 @@
 
 #include "engine/scene/material.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>

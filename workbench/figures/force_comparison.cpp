@@ -1,5 +1,7 @@
 #include "workbench/figures/force_comparison.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 #include "haptics/recording/recording_format.h"
 #include "haptics/tick/haptic_step.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <string>

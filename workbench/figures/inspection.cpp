@@ -19,6 +19,8 @@
 #include "workbench/figures/program_figures.h"
 #include "workbench/figures/texture_figures.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "workbench/model/model.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 

@@ -2,6 +2,8 @@
 
 #include "study/perception/perceptual_check.h"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdio>

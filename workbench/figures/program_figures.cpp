@@ -3,6 +3,8 @@
 #include "haptics/program/program_fault.h"
 #include "haptics/program/program_touch.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "haptics/program/register_program.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <string_view>

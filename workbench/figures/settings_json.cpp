@@ -1,5 +1,7 @@
 #include "workbench/figures/settings_json.h"
 
+#include <nlohmann/json.hpp>
+
 namespace touchstone {
 
 nlohmann::ordered_json settingsJson(const HapticSettings& settings) {

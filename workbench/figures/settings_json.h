@@ -3,7 +3,7 @@
 #include "devices/plant/plant.h"
 #include "haptics/settings/haptic_settings.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace touchstone {
 

@@ -1,5 +1,7 @@
 #include "workbench/figures/texture_figures.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

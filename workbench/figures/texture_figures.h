@@ -4,7 +4,7 @@
 #include "haptics/scene/haptic_scene.h"
 #include "haptics/texture/persistent_textures.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

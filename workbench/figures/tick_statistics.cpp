@@ -2,6 +2,8 @@
 
 #include "haptics/query/surface_distance.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>

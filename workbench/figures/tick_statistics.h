@@ -5,7 +5,7 @@
 #include "haptics/servo/servo_loop.h"
 #include "haptics/tick/haptic_step.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <cstdint>

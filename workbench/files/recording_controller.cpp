@@ -4,6 +4,8 @@
 #include "workbench/files/state_folder.h"
 #include "workbench/guards/crash_note.h"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cstdio>
 #include <ctime>

@@ -5,7 +5,7 @@
 #include "session/tick_subscriber.h"
 #include "workbench/options/commands.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 #include <string>

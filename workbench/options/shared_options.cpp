@@ -13,6 +13,7 @@
 #include <iomanip>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 namespace touchstone {

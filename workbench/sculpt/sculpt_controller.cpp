@@ -3,6 +3,7 @@
 #include "workbench/files/sculpted_file.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace touchstone {

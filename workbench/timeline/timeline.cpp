@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace touchstone {

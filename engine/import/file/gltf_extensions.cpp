@@ -1,5 +1,7 @@
 #include "engine/import/file/gltf_extensions.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <set>

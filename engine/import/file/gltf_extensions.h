@@ -3,7 +3,7 @@
 
 #include "engine/import/file/import_context.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace touchstone {
 

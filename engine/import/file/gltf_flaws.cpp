@@ -2,6 +2,8 @@
 
 #include "engine/import/file/gltf_validation.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <set>
 #include <span>

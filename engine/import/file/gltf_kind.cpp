@@ -1,5 +1,7 @@
 #include "engine/import/file/gltf_kind.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>

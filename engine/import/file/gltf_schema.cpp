@@ -2,6 +2,8 @@
 
 #include "engine/import/file/gltf_kind.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,6 +3,8 @@
 #include "engine/import/file/gltf_extensions.h"
 #include "engine/import/file/gltf_flaws.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <string_view>
 #include <unordered_set>

@@ -2,6 +2,8 @@
 
 #include "engine/import/file/gltf_schema.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <limits>
 

@@ -2,6 +2,7 @@
 
 #include "engine/import/file/gltf_uri.h"
 
+#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include <algorithm>

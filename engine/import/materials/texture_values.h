@@ -5,7 +5,7 @@
 #include "engine/program/surface_program.h"
 #include "engine/scene/scene.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <span>

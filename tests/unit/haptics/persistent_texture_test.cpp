@@ -9,6 +9,7 @@
 #include "tests/support/touch_bench.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <rapidcheck.h>
 
 #include <algorithm>

@@ -5,6 +5,8 @@
 #include "noise_reference.h"
 #include "program_bench.h"
 
+#include <nlohmann/json.hpp>
+
 namespace touchstone::program {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "tests/support/test_shapes.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "workbench/figures/tick_statistics.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
