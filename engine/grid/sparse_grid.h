@@ -1,6 +1,6 @@
 #pragma once
 // What the program knows of touchstone_grids.so, the one part of it that links OpenVDB: 68,866 symbols with
-// long names, 26 ms of every start, which a model without fields does not need. (touchstone_volume_reader is
+// long names, 26 ms of every start, which a model without fields does not need. (touchstone_vdb_reader is
 // a process of its own.)
 
 #include <glm/glm.hpp>

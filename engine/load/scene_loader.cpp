@@ -105,7 +105,7 @@ ScenePtr importVolume(ImportContext& context, const std::filesystem::path& path,
     if (volume == nullptr) {
         std::error_code problem;
         const uint64_t size = std::filesystem::file_size(path, problem);
-        volume = readVolume(context, path, format, installedVolumeReader(problem ? 0 : size));
+        volume = readVolume(context, path, format, installedVolumeReader(format, problem ? 0 : size));
     }
     std::string edits = context.options().edits;
     const std::optional<double> editedIso = takeIso(edits);

@@ -97,14 +97,15 @@ TEST_P(VolumeFuzz, MutantsAreRefusedOrGiveAVolume) {
             .write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size()));
     }
     std::mt19937 random(static_cast<unsigned>(GetParam() + 1));
-    VolumeReader reader = installedVolumeReader(0);
+    const VolumeFormat format = *volumeFormatNamed(seed.name);
+    VolumeReader reader = installedVolumeReader(format, 0);
     reader.limits.processorSeconds = 1;
     reader.limits.seconds = 60;
     reader.mostBytes = uint64_t{1} << 24;
     const LoadOptions options;
     size_t loaded = 0, crashed = 0, refused = 0;
     // OpenVDB's files are slow to refuse, and hardly any survives several changes.
-    const bool vdb = volumeFormatNamed(seed.name) == VolumeFormat::Vdb;
+    const bool vdb = format == VolumeFormat::Vdb;
     const int rounds = vdb ? test::repetitions(16, 400) : test::repetitions(48, 1200);
     for (int round = 0; round < rounds; ++round) {
         const VolumeBytes bytes = mutant(seed.bytes, vdb ? 1 : 5, random);
@@ -113,7 +114,7 @@ TEST_P(VolumeFuzz, MutantsAreRefusedOrGiveAVolume) {
             .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         const ImportContext context(path.string(), options);
         try {
-            const auto volume = readVolume(context, path, *volumeFormatNamed(path), reader);
+            const auto volume = readVolume(context, path, format, reader);
             ASSERT_TRUE(volume->low() < volume->high()) << round;
             ASSERT_TRUE(std::isfinite(volume->low() + volume->high())) << round;
             ASSERT_GT(glm::determinant(volume->facts().axes), 0.0) << round;

@@ -1,6 +1,7 @@
 #pragma once
-// The form in which touchstone_volume_reader, the child process, answers: one FlatVolumeHead, then the
-// values, the first axis fastest, in this machine's byte order. Shared by both processes.
+// The form in which touchstone_volume_reader and touchstone_vdb_reader, child processes, answer: one
+// FlatVolumeHead, then the values, the first axis fastest, in this machine's byte order. Shared by both
+// processes.
 
 #include "engine/volume/volume_type.h"
 

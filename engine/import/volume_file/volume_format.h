@@ -11,7 +11,7 @@ namespace touchstone {
 
 enum class VolumeFormat : uint8_t { Nrrd, Meta, Nifti, Vdb };
 
-/// "NRRD"; as touchstone_volume_reader knows it: "nrrd".
+/// "NRRD"; as its reader's command line has it: "nrrd".
 [[nodiscard]] const char* nameOf(VolumeFormat format);
 [[nodiscard]] const char* wordOf(VolumeFormat format);
 

@@ -66,7 +66,7 @@ std::filesystem::path dataFileIn(const ImportContext& context, const std::filesy
 [[noreturn]] void failOf(const ImportContext& context, const ProcessAnswer& answer, const std::string& line,
                          const std::string& name, const VolumeReader& reader) {
     using enum ProcessAnswer::End;
-    const auto fail = [&](const std::string& problem, const char* remedy) {
+    const auto fail = [&](const std::string& problem, const std::string& remedy) {
         context.fail("", problem, remedy);
     };
     switch (answer.end) {
@@ -99,7 +99,7 @@ std::filesystem::path dataFileIn(const ImportContext& context, const std::filesy
         break;
     }
     fail("the program that reads volumes cannot be started: " + reader.program.string(),
-         "build it (ninja touchstone_volume_reader) and leave it beside touchstone");
+         "build it (ninja " + reader.program.filename().string() + ") and leave it beside touchstone");
     std::abort(); // fail throws
 }
 
@@ -245,9 +245,10 @@ VolumeFacts factsOf(const FlatVolumeHead& head, VolumeFormat format) {
 
 } // namespace
 
-VolumeReader installedVolumeReader(uint64_t bytes) {
+VolumeReader installedVolumeReader(VolumeFormat format, uint64_t bytes) {
     VolumeReader reader;
-    reader.program = helperProgram("touchstone_volume_reader");
+    reader.program =
+        helperProgram(format == VolumeFormat::Vdb ? "touchstone_vdb_reader" : "touchstone_volume_reader");
     reader.limits.processorSeconds = 10 + static_cast<unsigned>(bytes / 4'000'000);
     reader.limits.seconds = 10 * reader.limits.processorSeconds;
     reader.limits.memory = std::max(kMaxMemory, uint64_t{4} << 30);

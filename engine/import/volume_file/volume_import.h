@@ -23,9 +23,10 @@ struct VolumeReader {
     uint64_t mostBytes = kMaxVolumeBytes;
 };
 
-/// touchstone_volume_reader beside the running program, for a file of so many bytes: at most 10 s of a
-/// processor and 1 s for each 4 MB, ten times as long of the clock, 4 GiB.
-[[nodiscard]] VolumeReader installedVolumeReader(uint64_t bytes);
+/// touchstone_volume_reader, or touchstone_vdb_reader for OpenVDB's files, beside the running program, for a
+/// file of so many bytes: at most 10 s of a processor and 1 s for each 4 MB, ten times as long of the clock,
+/// 4 GiB.
+[[nodiscard]] VolumeReader installedVolumeReader(VolumeFormat format, uint64_t bytes);
 
 /// Values in a file of their own are read where it lies in the folder of `path` or below. Throws Error, and
 /// Cancelled, of which it looks every 20 ms or more often. Any thread.

@@ -42,8 +42,8 @@ class VolumeFiles : public testing::Test {
     std::shared_ptr<const Volume> read(const fs::path& path) const {
         const LoadOptions options;
         const ImportContext context(path.string(), options);
-        return readVolume(context, path, *volumeFormatNamed(path),
-                          installedVolumeReader(fs::file_size(path)));
+        const VolumeFormat format = *volumeFormatNamed(path);
+        return readVolume(context, path, format, installedVolumeReader(format, fs::file_size(path)));
     }
     std::string refusal(const std::string& name, const VolumeBytes& bytes) const {
         try {
@@ -387,7 +387,9 @@ TEST_F(VolumeFiles, HugeFilesAreRefusedUnreadAndReadingIsCancelled) {
         at = Clock::now();
         cancel = true;
     });
-    EXPECT_THROW((void)readVolume(context, path, VolumeFormat::Nrrd, installedVolumeReader(0)), Cancelled);
+    EXPECT_THROW(
+        (void)readVolume(context, path, VolumeFormat::Nrrd, installedVolumeReader(VolumeFormat::Nrrd, 0)),
+        Cancelled);
     const Clock::time_point end = Clock::now();
     user.join();
     const double seconds = std::chrono::duration<double>(end - at).count();
