@@ -122,7 +122,7 @@ void VirtualDisplay::drag(const Place& from, const Place& to, int button) const 
     for (int i = 1; i <= kSteps; ++i)
         words.insert(words.end(), {"mousemove", std::to_string(from.x + (to.x - from.x) * i / kSteps),
                                    std::to_string(from.y + (to.y - from.y) * i / kSteps), "sleep", kFrame});
-    words.insert(words.end(), {"mouseup", std::to_string(button), "sleep", kFrame});
+    words.insert(words.end(), {"sleep", kFrame, "mouseup", std::to_string(button), "sleep", kFrame});
     xdotool(words);
 }
 
