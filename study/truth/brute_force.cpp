@@ -15,12 +15,14 @@ LVec3 nearestOnSegment(const LVec3& p, const LVec3& a, const LVec3& b) {
     return a + std::min(1.0L, std::max(0.0L, t)) * ab;
 }
 
-/// Whether the box around the triangle is farther away than `reach`, beyond what long double rounds.
+/// Whether the box around the triangle is farther away than `reach`, by more than distanceFrom may round: its
+/// normal of a sliver is good to a part of the triangle's size only.
 bool isBeyond(const Corners& corners, const LVec3& p, long double reach) {
     const LVec3 low = glm::min(glm::min(corners.a, corners.b), corners.c),
                 high = glm::max(glm::max(corners.a, corners.b), corners.c);
     const LVec3 away = glm::max(glm::max(low - p, p - high), LVec3(0.0L));
-    return glm::dot(away, away) > reach * reach * (1.0L + 1e-15L);
+    const long double sure = reach + 1e-6L * (reach + glm::length(high - low));
+    return glm::dot(away, away) > sure * sure;
 }
 
 Corners cornersOf(const HapticObject& object, size_t t) {

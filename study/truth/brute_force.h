@@ -24,9 +24,9 @@ struct BruteContact {
 
 /// Distance of `p` from one triangle of any aspect ratio.
 [[nodiscard]] BruteContact distanceFrom(const Corners& corners, const LVec3& p);
-/// The minimum over all triangles of the object, one by one; object frame.
+/// The minimum over all triangles of the object, one by one but for those whose box is farther; object frame.
 [[nodiscard]] BruteContact bruteNearest(const HapticObject& object, const LVec3& p);
-/// All triangles within `reach` of `p`, one by one; object frame.
+/// All triangles within `reach` of `p`, likewise; object frame.
 [[nodiscard]] std::vector<BruteContact> bruteWithin(const HapticObject& object, const LVec3& p,
                                                     long double reach);
 

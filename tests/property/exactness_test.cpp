@@ -30,10 +30,21 @@ TEST(Soup, FindsWhatTheLoopOverAllTrianglesFinds) {
             LVec3 p(in(random), in(random), in(random));
             if (trial % 2 == 0)
                 p = LVec3(object.vertices[random() % (object.vertices.size() - 1)]) * (1.0L + 1e-4L * p.x);
-            EXPECT_EQ(soup.nearest(p).distance, bruteNearest(object, p).distance);
             const auto reach = static_cast<long double>(std::pow(10.0, size(random)));
-            const size_t count = bruteWithin(object, p, reach).size();
+            long double nearest = INFINITY;
+            size_t count = 0;
+            for (size_t t = 0; t < object.triangleCount(); ++t) {
+                const auto corner = [&](size_t k) {
+                    return LVec3(object.vertices[object.indices[3 * t + k]]);
+                };
+                const long double distance = distanceFrom({corner(0), corner(1), corner(2)}, p).distance;
+                nearest = std::min(nearest, distance);
+                count += distance <= reach ? 1 : 0;
+            }
+            EXPECT_EQ(soup.nearest(p).distance, nearest);
+            EXPECT_EQ(bruteNearest(object, p).distance, nearest);
             EXPECT_EQ(soup.within(p, reach).size(), count);
+            EXPECT_EQ(bruteWithin(object, p, reach).size(), count);
             found += count;
             // A way's clearance is that of its nearest place.
             const LVec3 q = p + LVec3(0.03L * p.y, 0.02L * p.z, -0.05L * p.x);

@@ -112,7 +112,8 @@ std::vector<glm::dvec3> ExactTrial::replay(const glm::dvec3& hip) {
     }
     behind_.step(hip);
     const glm::dvec3 end = bench_.state[0].proxy;
-    if (behind_.state[0].proxy != end || behind_.output.force != bench_.output.force)
+    if (behind_.state[0].proxy != end || behind_.output.force != bench_.output.force ||
+        behind_.output.iterations != moves)
         fault("a replay of the whole tick ends elsewhere");
     places.push_back(end);
     return places;

@@ -236,10 +236,12 @@ class FirstMinute : public WindowTest {
         display_.click(middleOf(row));
         until("the timeline", [](const Json& s) { return s["timeline"]["looking"].get<bool>(); });
         const auto before = picture();
-        display_.click(middleOf("play"));
-        until("the cursor to go on", [](const Json& s) {
+        const auto atSecondHalf = [](const Json& s) {
             return s["timeline"]["cursor_s"] > 0.5 * s["timeline"]["length_s"].get<double>();
-        });
+        };
+        EXPECT_FALSE(atSecondHalf(status()));
+        display_.click(middleOf("play"));
+        until("the cursor to go on", atSecondHalf);
         EXPECT_GT(changed(before, picture()), 1e-4) << "the recorded hand is seen";
         display_.click(middleOf("verify"));
         const Json verified =
