@@ -37,14 +37,25 @@ build() {
     ninja -C "build/$preset" -j "$(jobs)" "$@"
 }
 
-# count_tests FILE: prints why tests were skipped, then "N tests, N skipped", out of ctest's JUnit file.
+# count_tests BUILD: prints why tests were skipped, then "N tests, N skipped", out of ctest's JUnit file and, for programs that run in
+# parts (tests/CMakeLists.txt), GoogleTest's. Fails where a part wrote none: it ended before its last case, whatever its status was.
 count_tests() {
-    [ -f "$1" ] || stop "ctest wrote no results" "read its messages above"
-    # A skipped test's output is "FILE:LINE: Skipped" and its reason on the next line.
-    awk '/: Skipped$/ { getline reason; ++skipped[reason] }
-         END { for (reason in skipped) printf "skipped %d: %s\n", skipped[reason], reason }' "$1" | sort
-    sed -n '/<testsuite /,/>/p' "$1" | tr '\n' ' ' |
-        sed -n 's/.*tests="\([0-9]*\)".*skipped="\([0-9]*\)".*/\1 tests, \2 skipped\n/p'
+    local results=$1/test_results.xml
+    [ -f "$results" ] || stop "ctest wrote no results" "read its messages above"
+    # ctest has the output of a skipped test: "FILE:LINE: Skipped", and the reason on the next line. GoogleTest has "FILE:LINE", the end of a
+    # line and the reason in an attribute.
+    { cat "$results" && find "$1/test_parts" -name '*.xml' -exec cat {} + 2>/dev/null || true; } |
+        awk '/<testcase name=/ { part = /<testcase name="Together\./; parts += part; tests += !part }
+             /<testsuites / { ++written }
+             /: Skipped$/ && !part { getline reason; ++skipped[reason]; ++all }
+             sub(/.*<skipped message="[^"]*:[0-9]+&#x0A;/, "") { sub(/(&#x0A;)*".*/, ""); ++skipped[$0]; ++all }
+             END { for (reason in skipped)
+                       printf "skipped %d: %s\n", skipped[reason], reason == "" ? "no reason" : reason | "sort"
+                   close("sort")
+                   printf "%d tests, %d skipped\n", tests, all
+                   if (parts != written)
+                       printf "of %d parts of programs %d ended without results\n", parts, parts - written
+                   exit parts != written }'
 }
 
 # figures_of_the_window <SCRIPT: runs a Python script that drives the real window on a virtual screen and saves parts

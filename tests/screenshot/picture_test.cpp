@@ -3,11 +3,13 @@
 #include "engine/core/error.h"
 #include "tests/screenshot/golden.h"
 #include "tests/screenshot/renderer_fixture.h"
+#include "tests/support/kept_environment.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -475,21 +477,18 @@ TEST(Determinism, SameBitsWithAnyNumberOfThreadsAndNoDisplay) {
 }
 
 TEST(NoDriver, ErrorNamesThePackage) {
-    // Loader and driver are chosen by the environment when the instance is made.
-    const char* before = std::getenv("VK_ICD_FILENAMES");
-    const std::string kept = before != nullptr ? before : "";
-    ::setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
-    ::setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
-    try {
-        (void)Gpu::headless();
-        ADD_FAILURE() << "there is no driver, yet a device was made";
-    } catch (const Error& error) {
-        EXPECT_NE(error.remedy().find("mesa-vulkan-drivers"), std::string::npos) << error.what();
+    {
+        // Loader and driver are chosen by the environment when the instance is made.
+        const KeptEnvironment kept;
+        ::setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
+        ::setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
+        try {
+            (void)Gpu::headless();
+            ADD_FAILURE() << "there is no driver, yet a device was made";
+        } catch (const Error& error) {
+            EXPECT_NE(error.remedy().find("mesa-vulkan-drivers"), std::string::npos) << error.what();
+        }
     }
-    ::unsetenv("VK_ICD_FILENAMES");
-    ::unsetenv("VK_DRIVER_FILES");
-    if (!kept.empty())
-        ::setenv("VK_ICD_FILENAMES", kept.c_str(), 1);
     useLavapipe();
     GpuOptions unknown;
     unknown.device = "no such card";

@@ -141,9 +141,17 @@ void PrintTo(const HostileFile& file, std::ostream* out) {
 constexpr long kMemoryLimitKilobytes = 1l << 20; // 1 GiB
 constexpr unsigned kHangSeconds = 120; // an alarm for a loader that never returns, not a measure of speed
 
-/// Loads in a child, so that a crash is a failed test and peak memory is the child's own.
+/// Of this process, with which a child begins.
+long residentKilobytes() {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+/// Loads in a child, so that a crash is a failed test and peak memory is what the child takes.
 /// Returns 0 loaded, 1 refused; anything else is a crash, a hang or a foreign exception.
 int loadInChild(const std::filesystem::path& path, long& peakKilobytes) {
+    const long before = residentKilobytes();
     const pid_t child = fork();
     if (child == 0) {
         alarm(kHangSeconds);
@@ -159,7 +167,7 @@ int loadInChild(const std::filesystem::path& path, long& peakKilobytes) {
     int status = 0;
     rusage usage{};
     wait4(child, &status, 0, &usage);
-    peakKilobytes = usage.ru_maxrss;
+    peakKilobytes = usage.ru_maxrss - before;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 

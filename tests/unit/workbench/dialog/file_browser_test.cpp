@@ -1,5 +1,6 @@
 // The browser without its widgets.
 
+#include "tests/support/kept_environment.h"
 #include "tests/support/program.h"
 #include "workbench/dialog/file_browser.h"
 
@@ -41,6 +42,7 @@ class FileBrowserTest : public testing::Test {
             all += entry.name + (entry.folder ? "/ " : " ");
         return all;
     }
+    KeptEnvironment kept_;
     ScratchFolder scratch_;
     FileBrowser browser_;
     double now_ = 0.0;

@@ -1,6 +1,7 @@
 // The desktop's portal on a bus of the test's own: it answers, is cancelled, refuses, vanishes, hangs or is
 // not there.
 
+#include "tests/support/kept_environment.h"
 #include "tests/unit/workbench/dialog/scripts.h"
 #include "workbench/dialog/file_dialog.h"
 #include "workbench/dialog/portal/file_uri.h"
@@ -34,7 +35,6 @@ class FilePortal : public testing::Test {
         wait([&] { return std::filesystem::exists(scratch_ / "bus"); });
         setenv("DBUS_SESSION_BUS_ADDRESS", ("unix:path=" + (scratch_ / "bus").string()).c_str(), 1);
     }
-    void TearDown() override { unsetenv("DBUS_SESSION_BUS_ADDRESS"); }
 
     static void wait(const std::function<bool()>& holds) {
         for (int i = 0; i < 4000 && !holds(); ++i)
@@ -72,6 +72,7 @@ class FilePortal : public testing::Test {
     }
 
     Scripts scripts_;
+    KeptEnvironment kept_;
     ScratchFolder scratch_;
     std::optional<BackgroundProgram> bus_, portal_;
     FileDialog dialog_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/support/kept_environment.h"
 #include "tests/support/program.h"
 
 #include <cstdlib>
@@ -8,7 +9,8 @@
 
 namespace touchstone::test {
 
-/// A folder with programs of the shell in it, which is all of PATH but for the system's own during its life.
+/// A folder with programs of the shell in it, which is all of PATH but for the system's own during its life;
+/// the environment is as before at its end.
 class Scripts {
   public:
     Scripts() {
@@ -17,11 +19,6 @@ class Scripts {
         unsetenv("XDG_CURRENT_DESKTOP");
         unsetenv("XDG_RUNTIME_DIR"); // no portal
         unsetenv("DBUS_SESSION_BUS_ADDRESS");
-    }
-    ~Scripts() {
-        setenv("PATH", before_.c_str(), 1);
-        unsetenv("TOUCHSTONE_FILE_DIALOG");
-        unsetenv("XDG_CURRENT_DESKTOP");
     }
     Scripts(const Scripts&) = delete;
     Scripts& operator=(const Scripts&) = delete;
@@ -34,8 +31,8 @@ class Scripts {
     }
 
   private:
+    KeptEnvironment kept_;
     ScratchFolder folder_;
-    std::string before_ = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
 };
 
 } // namespace touchstone::test
