@@ -6,6 +6,7 @@
 #include "tests/support/recorded_servo.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
