@@ -28,7 +28,7 @@ std::shared_ptr<const program::StartTextures> startTextures(const Scene& source,
         return nullptr;
     const nlohmann::json& stated = (*declared)["values"];
     if (before != nullptr && before->start != nullptr && before->start->size == felt.texture &&
-        before->start->stated == KeptJson(stated))
+        static_cast<const nlohmann::json&>(before->start->stated) == stated)
         return before->start;
     auto start = std::make_shared<program::StartTextures>();
     start->stated = KeptJson(stated);

@@ -253,14 +253,15 @@ class Strip {
         ImGui::InvisibleButton(name, ImVec2(width(), height_));
         widgets_.mark(name);
         const float x = ImGui::GetIO().MousePos.x;
-        if (ImGui::IsItemActive()) {
+        const bool dragged = Widgets::dragged();
+        if (dragged) {
             controller_.stopTouchingAgain();
             controller_.playback().play(false);
             controller_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
         } else if (ImGui::IsItemHovered()) {
             tell(x);
         }
-        return ImGui::IsItemActive();
+        return dragged;
     }
 
     void tell(float x) const {

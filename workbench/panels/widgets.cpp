@@ -154,6 +154,10 @@ void Widgets::besideArrow(float width) const {
     beside(width, ImGui::GetStyle().ItemSpacing.x + ImGui::GetFrameHeight());
 }
 
+bool Widgets::dragged() {
+    return ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+}
+
 float Widgets::buttonWidth(const char* label) {
     return ImGui::CalcTextSize(label, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }

@@ -133,8 +133,7 @@ void dragEdge(const char* name, const Rect& grip, float dragged, const SizeRange
                                                     : ImVec2(grip.x + grip.width, middle.y),
                                             ImGui::GetColorU32(ImGuiCol_SeparatorActive), 2.0f);
     }
-    // A slow frame may have the last way of the pointer and its release.
-    if (ImGui::IsItemActive() || ImGui::IsItemDeactivated())
+    if (Widgets::dragged())
         size = std::clamp(dragged / widgets.units(1.0f), range.least, std::max(range.least, range.most));
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
         size = range.usual;
