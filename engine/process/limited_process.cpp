@@ -64,7 +64,8 @@ bool takeStreams(const ProcessStreams& streams) {
 
 /// In the child, which shares our memory until exec: system calls only.
 [[noreturn]] void become(const Start& start) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (start.limits.endsWithThread)
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != start.parent)
         _exit(kCannotStart);                             // the parent ended before this call
     limit(RLIMIT_CPU, start.limits.processorSeconds, 1); // SIGXCPU, then SIGKILL

@@ -23,6 +23,7 @@ struct ProcessLimits {
     uint64_t memory = kMaxMemory; ///< bytes of its own writable memory
     /// Bytes of a file that it writes, and files that it has open at once.
     uint64_t fileSize = std::numeric_limits<uint64_t>::max(), openFiles = 1024;
+    bool endsWithThread = true; ///< with the thread that started it
 };
 
 /// File descriptors that become standard streams of a child; -1: /dev/null. They stay the caller's.
@@ -34,9 +35,9 @@ struct ProcessStreams {
 constexpr int kCannotStart = 127;
 
 /// Starts a program with these standard streams (nothing is read from standard error), within these limits
-/// from its first instruction. The system's out-of-memory killer prefers it, and it ends with the thread that
-/// called. `arguments` start with its name. Returns -1 where no process can be created. Does not copy our
-/// page tables: no page of the servo's may become copy-on-write.
+/// from its first instruction. The system's out-of-memory killer prefers it. `arguments` start with its name.
+/// Returns -1 where no process can be created. Does not copy our page tables: no page of the servo's may
+/// become copy-on-write.
 [[nodiscard]] pid_t startLimited(const std::string& program, const std::vector<std::string>& arguments,
                                  const ProcessLimits& limits, const ProcessStreams& streams = {});
 

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,7 +16,6 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kInterval = 20;              // ms
 constexpr size_t kBlock = size_t{1} << 18; // bytes read at once
 
 /// A child that is killed and awaited at the end of its life, unless it was awaited before.
@@ -115,7 +113,7 @@ ProcessAnswer answerOf(Child& child, const FileDescriptor& reading, const Proces
         if (ended)
             break;
         pollfd ready{.fd = open ? reading.get() : -1, .events = POLLIN, .revents = 0};
-        poll(&ready, 1, open ? kInterval : 1); // a child that has closed its output is about to end
+        poll(&ready, 1, open ? kStopInterval : 1); // a child that has closed its output is about to end
     }
     if (answer.end == TooLong)
         return answer;
@@ -161,14 +159,12 @@ FileDescriptor memoryFile(std::span<const uint8_t> bytes) {
     return file;
 }
 
-ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
-                         const ProcessLimits& limits, const FileDescriptor& input, uint64_t maxOutput,
-                         const std::function<bool()>& stop) {
+ProcessAnswer answerOf(const std::function<pid_t(int)>& begin, const ProcessLimits& limits,
+                       uint64_t maxOutput, const std::function<bool()>& stop) {
     OutputPipe pipe;
     if (!pipe.open())
         return {};
-    const pid_t pid =
-        startLimited(program, arguments, limits, {.input = input.get(), .output = pipe.writing.get()});
+    const pid_t pid = begin(pipe.writing.get());
     if (pid < 0)
         return {};
     Child child(pid);
@@ -176,40 +172,14 @@ ProcessAnswer askProcess(const std::string& program, const std::vector<std::stri
     return answerOf(child, pipe.reading, limits, maxOutput, stop);
 }
 
-WaitingProcess::WaitingProcess(const std::string& program, const std::vector<std::string>& arguments,
-                               const ProcessLimits& limits)
-    : limits_(limits) {
-    OutputPipe pipe;
-    int ends[2] = {-1, -1};
-    // A socket: writing to a process that has ended is an error and no signal.
-    if (!pipe.open() || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        return;
-    input_ = FileDescriptor(ends[0]);
-    const FileDescriptor theirs(ends[1]);
-    pid_ = startLimited(program, arguments, limits, {.input = theirs.get(), .output = pipe.writing.get()});
-    output_ = std::move(pipe.reading);
-}
-
-WaitingProcess::~WaitingProcess() {
-    if (pid_ >= 0)
-        const Child killed(pid_);
-}
-
-ProcessAnswer WaitingProcess::ask(std::span<const uint8_t> input, uint64_t maxOutput,
-                                  const std::function<bool()>& stop) {
-    if (pid_ < 0)
-        return {};
-    Child child(std::exchange(pid_, -1));
-    while (!input.empty()) {
-        const ssize_t sent = send(input_.get(), input.data(), input.size(), MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR)
-            continue;
-        if (sent <= 0)
-            break; // it has ended; how, stands in the answer
-        input = input.subspan(static_cast<size_t>(sent));
-    }
-    input_.close();
-    return answerOf(child, output_, limits_, maxOutput, stop);
+ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
+                         const ProcessLimits& limits, const FileDescriptor& input, uint64_t maxOutput,
+                         const std::function<bool()>& stop) {
+    return answerOf(
+        [&](int output) {
+            return startLimited(program, arguments, limits, {.input = input.get(), .output = output});
+        },
+        limits, maxOutput, stop);
 }
 
 ProcessAnswer askProcessInto(const FileDescriptor& output, const std::string& program,
@@ -223,7 +193,7 @@ ProcessAnswer askProcessInto(const FileDescriptor& output, const std::string& pr
         return answer;
     Child child(pid);
     const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
-    for (int wait = 1; !child.wait(WNOHANG); wait = std::min(2 * wait, kInterval)) {
+    for (int wait = 1; !child.wait(WNOHANG); wait = std::min(2 * wait, kStopInterval)) {
         answer.end = stop() ? Stopped : std::chrono::steady_clock::now() >= due ? TooSlow : NotStarted;
         if (answer.end != NotStarted)
             return answer; // and kills it

@@ -32,6 +32,9 @@ class FileDescriptor {
 /// has no memory for it.
 [[nodiscard]] FileDescriptor memoryFile(std::span<const uint8_t> bytes);
 
+/// ms between two questions whether to stop.
+inline constexpr int kStopInterval = 20;
+
 struct ProcessAnswer {
     enum class End : uint8_t {
         Exited,     ///< with `status`
@@ -46,32 +49,18 @@ struct ProcessAnswer {
     std::vector<uint8_t> output;
 };
 
-/// Runs a program (as startLimited does) to its end and returns its output, at most `maxOutput` bytes.
-/// `input` becomes its standard input. `stop` is asked every 20 ms and ends it when true. Any thread but the
-/// servo's; a program that has ended is not waited for longer because a process of its own holds its output.
+/// The output, at most `maxOutput` bytes, of the child that `begin` starts, to its end. `begin` gets the file
+/// that becomes its standard output and returns its number; -1: there is none. limits.seconds count from
+/// then; `stop` is asked every 20 ms and ends it when true. Any thread but the servo's; a program that has
+/// ended is not waited for longer because a process of its own holds its output.
+[[nodiscard]] ProcessAnswer answerOf(const std::function<pid_t(int output)>& begin,
+                                     const ProcessLimits& limits, uint64_t maxOutput,
+                                     const std::function<bool()>& stop);
+
+/// answerOf a program that startLimited starts. `input` becomes its standard input.
 [[nodiscard]] ProcessAnswer askProcess(const std::string& program, const std::vector<std::string>& arguments,
                                        const ProcessLimits& limits, const FileDescriptor& input,
                                        uint64_t maxOutput, const std::function<bool()>& stop);
-
-/// A program that has been started and waits for its input. One thread, with which it ends; killed at the end
-/// of its life. limits.seconds count from `ask`.
-class WaitingProcess {
-  public:
-    WaitingProcess(const std::string& program, const std::vector<std::string>& arguments,
-                   const ProcessLimits& limits);
-    ~WaitingProcess();
-    WaitingProcess(const WaitingProcess&) = delete;
-    WaitingProcess& operator=(const WaitingProcess&) = delete;
-
-    /// Writes `input` to its standard input, ends that, and returns the output, as askProcess does. Once.
-    [[nodiscard]] ProcessAnswer ask(std::span<const uint8_t> input, uint64_t maxOutput,
-                                    const std::function<bool()>& stop);
-
-  private:
-    FileDescriptor input_, output_;
-    pid_t pid_ = -1; ///< -1: there is no process
-    ProcessLimits limits_;
-};
 
 /// The same for a program that writes to the file `output` instead, whose size limits.fileSize bounds; the
 /// answer has no bytes.

@@ -3,7 +3,6 @@
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/process/helper_program.h"
-#include "engine/process/process_answer.h"
 #include "engine/program/spirv_reader.h"
 
 #include <signal.h>
@@ -14,7 +13,6 @@
 #include <cstring>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 namespace touchstone {
 
@@ -102,7 +100,7 @@ std::string remedyFor(std::string_view message) {
 }
 
 [[noreturn]] void failOf(const ProgramSource& source, const ProcessAnswer& answer,
-                         const ProgramCompiler& compiler) {
+                         const PreparedProgram& compiler) {
     using enum ProcessAnswer::End;
     switch (answer.end) {
     case Exited:
@@ -114,14 +112,14 @@ std::string remedyFor(std::string_view message) {
     case Killed:
         if (answer.status == SIGXCPU)
             throw Error(source.name, "",
-                        "compiling it took more than " + std::to_string(compiler.limits.processorSeconds) +
+                        "compiling it took more than " + std::to_string(compiler.limits().processorSeconds) +
                             " s",
                         kShorten);
         throw Error(source.name, "",
                     "the compiler crashed on it (signal " + std::to_string(answer.status) + ")", kShorten);
     case TooSlow:
         throw Error(source.name, "",
-                    "compiling it took longer than " + std::to_string(compiler.limits.seconds) + " s",
+                    "compiling it took longer than " + std::to_string(compiler.limits().seconds) + " s",
                     kShorten);
     case TooLong:
         throw Error(source.name, "", "it becomes too long when its functions are inlined", kShorten);
@@ -130,36 +128,23 @@ std::string remedyFor(std::string_view message) {
     case NotStarted:
         break;
     }
-    throw Error(source.name, "", "the compiler of programs cannot be started: " + compiler.program.string(),
+    throw Error(source.name, "", "the compiler of programs cannot be started: " + compiler.program().string(),
                 "build it (ninja touchstone_program_compiler) and leave it beside touchstone");
 }
 
 } // namespace
 
-ProgramCompiler installedProgramCompiler() {
-    ProgramCompiler compiler;
-    compiler.program = helperProgram("touchstone_program_compiler");
-    compiler.limits.processorSeconds = 5;
-    compiler.limits.seconds = 30;
-    compiler.limits.memory = std::max(kMaxMemory / 2, uint64_t{1} << 30);
-    compiler.limits.fileSize = 0;
-    compiler.limits.openFiles = 16;
+PreparedProgram& installedProgramCompiler() {
+    static PreparedProgram compiler = [] {
+        ProcessLimits limits;
+        limits.processorSeconds = 5;
+        limits.seconds = 30;
+        limits.memory = std::max(kMaxMemory / 2, uint64_t{1} << 30);
+        limits.fileSize = 0;
+        limits.openFiles = 16;
+        return PreparedProgram(helperProgram("touchstone_program_compiler"), limits);
+    }();
     return compiler;
-}
-
-void WaitingCompiler::start(size_t wanted) {
-    if (processes_.size() < wanted)
-        processes_.push_back(std::make_unique<WaitingProcess>(
-            compiler_.program.string(),
-            std::vector<std::string>{compiler_.program.filename().string(), "--wait"}, compiler_.limits));
-}
-
-std::unique_ptr<WaitingProcess> WaitingCompiler::take() {
-    if (processes_.empty())
-        return nullptr;
-    std::unique_ptr<WaitingProcess> oldest = std::move(processes_.front());
-    processes_.erase(processes_.begin());
-    return oldest;
 }
 
 std::string placeInSource(const ProgramSource& source, const std::string& file, uint32_t line) {
@@ -170,19 +155,15 @@ std::string placeInSource(const ProgramSource& source, const std::string& file, 
     return line > 0 ? "line " + std::to_string(line) : "";
 }
 
-std::vector<uint32_t> compileProgram(const ProgramSource& source, const ProgramCompiler& compiler,
-                                     const std::function<bool()>& stop, WaitingCompiler* waiting) {
+std::vector<uint32_t> compileProgram(const ProgramSource& source, PreparedProgram& compiler,
+                                     const std::function<bool()>& stop) {
     std::vector<uint8_t> bytes;
     for (const std::string& text :
          {std::string(kSourceFile), declarationOf(source.parameters), source.text}) {
         bytes.insert(bytes.end(), text.begin(), text.end());
         bytes.push_back(0);
     }
-    const std::unique_ptr<WaitingProcess> started = waiting != nullptr ? waiting->take() : nullptr;
-    const ProcessAnswer answer =
-        started != nullptr ? started->ask(bytes, kMaxSpirvBytes, stop)
-                           : askProcess(compiler.program.string(), {compiler.program.filename().string()},
-                                        compiler.limits, memoryFile(bytes), kMaxSpirvBytes, stop);
+    const ProcessAnswer answer = compiler.ask(memoryFile(bytes), kMaxSpirvBytes, stop);
     if (answer.end != ProcessAnswer::End::Exited || answer.status != 0)
         failOf(source, answer, compiler);
     std::vector<uint32_t> words(answer.output.size() / 4);

@@ -126,8 +126,7 @@ Held& held() {
 
 std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& name, std::string_view text,
                                                             const std::filesystem::path& file,
-                                                            const std::function<bool()>& stop,
-                                                            WaitingCompiler* waiting) {
+                                                            const std::function<bool()>& stop) {
     const std::tuple key(name, std::string(text), file.string());
     {
         const std::lock_guard lock(held().mutex);
@@ -139,7 +138,7 @@ std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& n
     program->source = readProgramSource(name, text);
     program->text = text;
     program->file = file;
-    program->spirv = compileProgram(program->source, installedProgramCompiler(), stop, waiting);
+    program->spirv = compileProgram(program->source, installedProgramCompiler(), stop);
     const std::lock_guard lock(held().mutex);
     std::erase_if(held().programs, [](const auto& each) { return each.second.expired(); });
     held().programs[key] = program;

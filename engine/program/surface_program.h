@@ -28,14 +28,13 @@ struct SurfaceProgram {
     std::filesystem::path file; ///< beside the model; empty: the source is inside the model's file
 };
 
-class WaitingCompiler; // engine/program/program_compiler.h
-
-/// Compiles a source, by the compiler that waits where there is one. Programs of the same name, text and file
+/// Compiles a source. Programs of the same name, text and file
 /// that are still held somewhere are shared and not compiled again. Throws Error, whose place is the line,
 /// and Cancelled; `stop` is asked every 20 ms. Any thread but the servo.
-[[nodiscard]] std::shared_ptr<const SurfaceProgram>
-compileSurfaceProgram(const std::string& name, std::string_view text, const std::filesystem::path& file,
-                      const std::function<bool()>& stop, WaitingCompiler* waiting = nullptr);
+[[nodiscard]] std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& name,
+                                                                          std::string_view text,
+                                                                          const std::filesystem::path& file,
+                                                                          const std::function<bool()>& stop);
 
 /// Sides of a persistent texture, at most.
 inline constexpr uint32_t kMaxPersistentSide = 2048;

@@ -36,7 +36,7 @@ RegisterProgram translated(const ProgramSource& source, std::span<const uint32_t
     return std::move(translation.program);
 }
 
-RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
+RegisterProgram loadProgram(const ProgramSource& source, PreparedProgram& compiler,
                             const std::function<bool()>& stop) {
     RegisterProgram program = translated(source, compileProgram(source, compiler, stop));
     setParameters(program, source.parameters);

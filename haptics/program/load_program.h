@@ -16,7 +16,7 @@ namespace touchstone::program {
 
 /// Compiles and translates it, with the defaults of its parameters. Throws Error with the line and a remedy;
 /// Cancelled. `stop` is asked every 20 ms. Any thread but the servo.
-[[nodiscard]] RegisterProgram loadProgram(const ProgramSource& source, const ProgramCompiler& compiler,
+[[nodiscard]] RegisterProgram loadProgram(const ProgramSource& source, PreparedProgram& compiler,
                                           const std::function<bool()>& stop);
 
 /// Gives the parameters their values: one entry for each of the source, in its order. A parameter that the

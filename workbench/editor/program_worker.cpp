@@ -21,11 +21,6 @@ namespace touchstone {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{10};
-/// A second compiler is started then at the latest.
-constexpr std::chrono::milliseconds kWithoutFiles{500};
-/// s without anything to compile, after which a second compiler gets ready. Its tenth of a second of a
-/// processor is not taken while the last text is on its way into touch and picture.
-constexpr double kQuiet = 0.5;
 
 /// The number of "line 12"; 0: none.
 unsigned lineOf(std::string_view place) {
@@ -121,17 +116,13 @@ bool ProgramWorker::busy() {
 }
 
 void ProgramWorker::run() {
-    WaitingCompiler compiler(installedProgramCompiler());
-    double last = secondsNow(); // time of the last job
+    installedProgramCompiler().start(); // the first text is compiled the sooner
     while (!stop_) {
-        compiler.start(secondsNow() - last > kQuiet ? 2 : 1); // the next texts are compiled the sooner
         std::optional<Job> job = next();
         if (!job)
             job = changedFile();
-        if (job)
-            last = secondsNow();
         if (job && job->report.program == nullptr)
-            compileNow(*std::move(job), compiler);
+            compileNow(*std::move(job));
         else if (job)
             finish(*std::move(job));
     }
@@ -142,9 +133,13 @@ std::optional<ProgramWorker::Job> ProgramWorker::next() {
     std::unique_lock lock(mutex_);
     const bool watches =
         std::ranges::any_of(sources_, [](const Known& known) { return !known.file.empty(); });
-    wake_.wait_for(lock, watches ? kLookEvery : kWithoutFiles, [this, generation = generation_] {
+    const auto called = [this, generation = generation_] {
         return stop_ || generation_ != generation || !wanted_.empty() || !unmeasured_.empty();
-    });
+    };
+    if (watches)
+        wake_.wait_for(lock, kLookEvery, called);
+    else
+        wake_.wait(lock, called);
     Job job{.generation = generation_};
     if (stop_ || (wanted_.empty() && unmeasured_.empty()))
         return std::nullopt;
@@ -214,15 +209,15 @@ bool ProgramWorker::superseded(const Job& job) {
            (!job.report.fromFile && sources_[job.report.source].version != job.version);
 }
 
-void ProgramWorker::compileNow(Job job, WaitingCompiler& compiler) {
+void ProgramWorker::compileNow(Job job) {
     ProgramReport& report = job.report;
     {
         const std::lock_guard lock(mutex_);
         compiling_ = true;
     }
     try {
-        auto compiled = compileSurfaceProgram(
-            job.name, report.text, job.file, [&] { return superseded(job); }, &compiler);
+        auto compiled =
+            compileSurfaceProgram(job.name, report.text, job.file, [&] { return superseded(job); });
         (void)program::translated(compiled->source, compiled->spirv); // the hand must be able to run it, too
         report.program = std::move(compiled);
     } catch (const Cancelled&) {

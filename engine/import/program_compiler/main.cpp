@@ -9,6 +9,7 @@
 
 #include "engine/import/program_compiler/endless_loop.h"
 #include "engine/import/program_compiler/material_shaders.h"
+#include "engine/import/reader_child/own_copies.h"
 #include "engine/import/reader_child/sandbox.h"
 #include "engine/import/reader_child/standard_streams.h"
 
@@ -17,9 +18,7 @@
 #include <spirv-tools/optimizer.hpp>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <new>
 #include <span>
@@ -150,36 +149,15 @@ void prepare() {
     (void)shader.parse(&resources, 450, ECoreProfile, false, true, kMessages);
 }
 
-/// To its end: of a compiler that was started before there was anything to compile.
-std::vector<uint8_t> awaitedInput() {
-    std::vector<uint8_t> bytes;
-    for (;;) {
-        constexpr size_t kPart = 65536;
-        const size_t before = bytes.size();
-        bytes.resize(before + kPart);
-        const ssize_t got = read(STDIN_FILENO, bytes.data() + before, kPart);
-        if (got < 0 && errno != EINTR)
-            throw std::runtime_error("the input cannot be read");
-        bytes.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
-        if (got == 0)
-            return bytes;
-    }
-}
-
-void work(bool waits) {
+void work(bool copies) {
     glslang::InitializeProcess();
-    if (waits)
+    if (copies) {
         prepare();
-    std::vector<uint8_t> awaited;
-    std::span<const uint8_t> input;
-    if (!waits)
-        input = standardInput();
+        becomeCopies();
+    }
+    std::span<const uint8_t> input = standardInput();
     if (!enterSandbox())
         throw std::runtime_error("this system offers no sandbox (seccomp) to compile in");
-    if (waits) {
-        awaited = awaitedInput();
-        input = awaited;
-    }
     const std::string name = take(input), parameters = take(input), source = take(input);
     const std::vector<uint32_t> whole = compile(name, parameters, source);
     const std::vector<uint32_t> words = withEndlessLoop(inlined(whole), whole, name);
@@ -190,10 +168,10 @@ void work(bool waits) {
 } // namespace
 } // namespace touchstone
 
-/// --wait: gets ready, and then waits for its input to end.
+/// --copies: gets ready, and compiles in copies of itself, one for each question.
 int main(int count, char** words) {
     try {
-        touchstone::work(count > 1 && std::string_view(words[1]) == "--wait");
+        touchstone::work(count > 1 && std::string_view(words[1]) == "--copies");
     } catch (const std::bad_alloc&) {
         touchstone::endWith(1, "ERROR: it needs more memory than it may have");
     } catch (const std::exception& error) {

@@ -144,8 +144,7 @@ TEST(ProgramProblems, WrongParametersAreRefusedAtTheirLine) {
 }
 
 TEST(ProgramProblems, ACompilerThatIsMissingIsNamed) {
-    ProgramCompiler compiler = installedProgramCompiler();
-    compiler.program = "/nonexistent/compiler";
+    PreparedProgram compiler("/nonexistent/compiler", installedProgramCompiler().limits());
     try {
         (void)compileProgram(readProgramSource("test.glsl", touchBody("")), compiler, [] { return false; });
         FAIL();

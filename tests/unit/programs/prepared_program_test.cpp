@@ -1,0 +1,263 @@
+// A helper program that answers by copies of itself: the compiler of haptic programs.
+
+#include "engine/core/progress.h"
+#include "engine/process/prepared_program.h"
+#include "tests/unit/programs/program_bench.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace touchstone::program {
+namespace {
+
+constexpr uint64_t kMost = uint64_t{4} << 20;
+const std::function<bool()> kNever = [] { return false; };
+
+std::string wholeFile(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Children of any thread of ours that answer by copies, and the copies: they have the same command line.
+std::set<pid_t> compilers(pid_t process = getpid()) {
+    std::set<pid_t> found;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+        std::ifstream children(thread.path() / "children");
+        for (pid_t child = 0; children >> child;)
+            if (wholeFile("/proc/" + std::to_string(child) + "/cmdline").find("--copies") !=
+                std::string::npos)
+                found.insert(child);
+    }
+    return found;
+}
+
+/// Whether the system filters its calls.
+bool isInSandbox(pid_t process) {
+    return wholeFile("/proc/" + std::to_string(process) + "/status").find("\nSeccomp:\t2\n") !=
+           std::string::npos;
+}
+
+FileDescriptor questionOf(const std::string& text) {
+    const std::string whole = std::string("test.glsl") + '\0' + '\0' + text + '\0';
+    return memoryFile({reinterpret_cast<const uint8_t*>(whole.data()), whole.size()});
+}
+
+/// One that takes seconds: each function calls the one before twice, and all are inlined.
+std::string longProgram() {
+    std::string text = "float f0(float x) { return sin(x) * x + 1.0; }\n";
+    constexpr int kDeep = 14;
+    for (int i = 1; i <= kDeep; ++i) {
+        const std::string before = "f" + std::to_string(i - 1);
+        text += "float f" + std::to_string(i) + "(float x) { return " + before + "(x) + " + before +
+                "(x + 1.0); }\n";
+    }
+    return text + touchBody("after.stiffness = f" + std::to_string(kDeep) + "(before.position.x);");
+}
+
+PreparedProgram ownCompiler() {
+    return {installedProgramCompiler().program(), installedProgramCompiler().limits()};
+}
+
+void expectCompiles(PreparedProgram& compiler, const std::string& text = touchBody("")) {
+    EXPECT_FALSE(compileProgram(readProgramSource("test.glsl", text), compiler, kNever).empty());
+}
+
+TEST(PreparedProgram, ItsCopiesAnswerAsTheProgramStartedAnewDoes) {
+    size_t compared = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TOUCHSTONE_SOURCE "/assets/programs")) {
+        const ProgramSource source =
+            readProgramSource(entry.path().filename().string(), wholeFile(entry.path()));
+        const std::string question =
+            source.name + '\0' + declarationOf(source.parameters) + '\0' + source.text + '\0';
+        const auto input = [&] {
+            return memoryFile({reinterpret_cast<const uint8_t*>(question.data()), question.size()});
+        };
+        PreparedProgram& compiler = installedProgramCompiler();
+        const ProcessAnswer copy = compiler.ask(input(), kMost, kNever),
+                            anew = askProcess(compiler.program().string(), {"compiler"}, compiler.limits(),
+                                              input(), kMost, kNever);
+        EXPECT_EQ(anew.end, ProcessAnswer::End::Exited);
+        EXPECT_EQ(anew.status, 0);
+        EXPECT_EQ(copy.end, anew.end);
+        EXPECT_EQ(copy.status, anew.status);
+        EXPECT_EQ(copy.output, anew.output) << entry.path();
+        ++compared;
+    }
+    EXPECT_GT(compared, 5u);
+}
+
+TEST(PreparedProgram, AnswersManyThreadsAtOnceEachItsOwn) {
+    PreparedProgram compiler = ownCompiler();
+    std::vector<std::thread> threads;
+    std::vector<std::string> heights(8);
+    for (size_t i = 0; i < heights.size(); ++i)
+        threads.emplace_back([&, i] {
+            for (int again = 0; again < 3; ++again) {
+                // The message says which of them it is the answer to.
+                const ProcessAnswer answer =
+                    compiler.ask(questionOf(touchBody("after.stiffness = unknown" + std::to_string(i) + ";")),
+                                 kMost, kNever);
+                heights[i] += std::string(answer.output.begin(), answer.output.end());
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (size_t i = 0; i < heights.size(); ++i)
+        for (size_t other = 0; other < heights.size(); ++other)
+            EXPECT_EQ(heights[i].find("unknown" + std::to_string(other)) != std::string::npos, i == other);
+}
+
+TEST(PreparedProgram, LivesLongerThanTheThreadThatStartedIt) {
+    PreparedProgram compiler = ownCompiler();
+    const std::set<pid_t> before = compilers();
+    std::thread([&] { expectCompiles(compiler); }).join();
+    const std::set<pid_t> one = compilers();
+    EXPECT_EQ(one.size(), before.size() + 1);
+    expectCompiles(compiler);
+    EXPECT_EQ(compilers(), one) << "the same has answered again";
+}
+
+TEST(PreparedProgram, EndsWithItsObject) {
+    const std::set<pid_t> before = compilers();
+    {
+        PreparedProgram compiler = ownCompiler();
+        expectCompiles(compiler);
+        EXPECT_EQ(compilers().size(), before.size() + 1);
+    }
+    EXPECT_EQ(compilers(), before);
+}
+
+TEST(PreparedProgram, StartsAgainWhereItHasDied) {
+    PreparedProgram compiler = ownCompiler();
+    const std::set<pid_t> before = compilers();
+    for (int again = 0; again < 2; ++again) {
+        expectCompiles(compiler);
+        for (const pid_t one : compilers())
+            if (!before.contains(one))
+                kill(one, SIGKILL);
+    }
+    expectCompiles(compiler);
+    expectCompiles(compiler);
+    EXPECT_EQ(compilers().size(), before.size() + 1);
+}
+
+TEST(PreparedProgram, WhatKnowsNoCopiesIsStartedForEachQuestion) {
+    PreparedProgram shell("/bin/sh", {});
+    const std::string script = "echo one answer; exit 3";
+    for (int again = 0; again < 2; ++again) {
+        const ProcessAnswer answer = shell.ask(
+            memoryFile({reinterpret_cast<const uint8_t*>(script.data()), script.size()}), kMost, kNever);
+        EXPECT_EQ(answer.end, ProcessAnswer::End::Exited);
+        EXPECT_EQ(answer.status, 3);
+        EXPECT_EQ(std::string(answer.output.begin(), answer.output.end()), "one answer\n");
+    }
+}
+
+TEST(PreparedProgram, OnlyItsCopiesReadAndTheyDoSoInTheSandbox) {
+    PreparedProgram compiler = ownCompiler();
+    const std::set<pid_t> others = compilers();
+    expectCompiles(compiler);
+    const std::set<pid_t> before = compilers();
+    ASSERT_EQ(before.size(), others.size() + 1);
+    std::atomic<bool> stop{false};
+    ProcessAnswer answer;
+    std::thread asker(
+        [&] { answer = compiler.ask(questionOf(longProgram()), kMost, [&] { return stop.load(); }); });
+    bool found = false;
+    for (int i = 0; i < 1000 && !found; ++i) {
+        for (const pid_t one : compilers())
+            found = found || (!before.contains(one) && isInSandbox(one));
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_TRUE(found);
+    for (const pid_t one : before)
+        EXPECT_TRUE(others.contains(one) || !isInSandbox(one)) << "it would not get another copy";
+    stop = true;
+    asker.join();
+    EXPECT_EQ(answer.end, ProcessAnswer::End::Stopped);
+    EXPECT_EQ(compilers(), before) << "the copy has gone with the question";
+}
+
+TEST(PreparedProgram, WhatIsStoppedWhileItStartsIsNotAnswered) {
+    for (int again = 0; again < 3; ++again) {
+        PreparedProgram compiler = ownCompiler();
+        EXPECT_THROW((void)compileProgram(readProgramSource("test.glsl", touchBody("")), compiler,
+                                          [] { return true; }),
+                     Cancelled);
+        expectCompiles(compiler);
+    }
+}
+
+TEST(PreparedProgram, ACopyHasTheLimitsAndItsEndIsNotTheOthers) {
+    ProcessLimits limits = installedProgramCompiler().limits();
+    limits.processorSeconds = 1;
+    PreparedProgram compiler(installedProgramCompiler().program(), limits);
+    expectCompiles(compiler);
+    const std::set<pid_t> before = compilers();
+    const ProcessAnswer answer = compiler.ask(questionOf(longProgram()), kMost, kNever);
+    EXPECT_EQ(answer.end, ProcessAnswer::End::Killed);
+    EXPECT_EQ(answer.status, SIGXCPU);
+    expectCompiles(compiler);
+    EXPECT_EQ(compilers(), before);
+}
+
+TEST(PreparedProgram, ACopyOfThisProcessStartsItsOwn) {
+    PreparedProgram compiler = ownCompiler();
+    expectCompiles(compiler);
+    const std::set<pid_t> before = compilers();
+    const pid_t copy = fork();
+    if (copy == 0) {
+        try {
+            expectCompiles(compiler);
+            _exit(compilers().size() == 1 && !testing::Test::HasFailure() ? 0 : 1);
+        } catch (...) {
+            _exit(2);
+        }
+    }
+    int status = -1;
+    waitpid(copy, &status, 0);
+    EXPECT_EQ(status, 0);
+    expectCompiles(compiler);
+    EXPECT_EQ(compilers(), before);
+}
+
+TEST(PreparedProgram, EndsWithTheProcessHoweverThatEnds) {
+    int ends[2] = {-1, -1};
+    ASSERT_EQ(pipe(ends), 0);
+    const pid_t copy = fork();
+    if (copy == 0) {
+        PreparedProgram compiler = ownCompiler();
+        compiler.start();
+        const pid_t one = *compilers().begin();
+        (void)!write(ends[1], &one, sizeof one);
+        kill(getpid(), SIGKILL);
+    }
+    pid_t one = -1;
+    ASSERT_EQ(read(ends[0], &one, sizeof one), static_cast<ssize_t>(sizeof one));
+    waitpid(copy, nullptr, 0);
+    // Somebody else's child now, who may not have waited for it yet.
+    const auto lives = [&] {
+        const std::string status = wholeFile("/proc/" + std::to_string(one) + "/status");
+        return !status.empty() && status.find("State:\tZ") == std::string::npos;
+    };
+    for (int i = 0; i < 500 && lives(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(lives());
+    for (const int end : ends)
+        close(end);
+}
+
+} // namespace
+} // namespace touchstone::program
