@@ -1,43 +1,20 @@
 #include "engine/process/prepared_program.h"
 
+#include "engine/process/passed_streams.h"
+
 #include <poll.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
 namespace touchstone {
 
 namespace {
-
-/// A byte with two descriptors beside it. False where nobody can take them.
-bool sendStreams(int socket, int input, int output) {
-    char byte = 0;
-    iovec part{&byte, sizeof byte};
-    const std::array both{input, output};
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof both)> beside{};
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = beside.data();
-    message.msg_controllen = beside.size();
-    cmsghdr* const header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET;
-    header->cmsg_type = SCM_RIGHTS;
-    header->cmsg_len = CMSG_LEN(sizeof both);
-    std::memcpy(CMSG_DATA(header), both.data(), sizeof both);
-    ssize_t sent = 0;
-    do
-        sent = sendmsg(socket, &message, MSG_NOSIGNAL);
-    while (sent < 0 && errno == EINTR);
-    return sent == sizeof byte;
-}
 
 /// Kills it and waits for it.
 void killAndWait(pid_t pid) {
@@ -99,7 +76,7 @@ pid_t PreparedProgram::copyFor(int input, int output, const std::function<bool()
     if (!runs())
         return -1;
     const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits_.seconds);
-    bool waits = sendStreams(socket_.get(), input, output);
+    bool waits = PassedStreams().send(socket_.get(), input, output);
     while (waits) {
         pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
         poll(&ready, 1, kStopInterval);
