@@ -25,8 +25,7 @@ namespace {
 using experiment::PlanarStimulus;
 using experiment::SessionFlow;
 
-constexpr float kVolume = 0.5f;        // of full scale; the system's own volume sets the loudness
-constexpr double kStatusPeriod = 0.05; // s
+constexpr float kVolume = 0.5f; // of full scale; the system's own volume sets the loudness
 constexpr std::array<std::string_view, 5> kPageNames{"welcome", "training", "first", "second", "finished"};
 
 bool needsLocation(const experiment::StudyPlan& plan, const std::vector<size_t>& order) {
@@ -162,10 +161,9 @@ void ExperimentWindow::draw() {
         ImGui::SetMouseCursor(ImGuiMouseCursor_None);
 }
 
-void ExperimentWindow::writeStatus(double now) {
-    if (options_.statusJson.empty() || now - statusAt_ < kStatusPeriod)
+void ExperimentWindow::writeStatus() {
+    if (options_.statusJson.empty())
         return;
-    statusAt_ = now;
     const nlohmann::ordered_json json{{"update", ++updates_},
                                       {"page", kPageNames[static_cast<size_t>(flow_.page())]},
                                       {"part", flow_.part() + 1},
@@ -209,7 +207,7 @@ void ExperimentWindow::frame() {
     } catch (const DeviceLost& lost) {
         screen_.renew(lost, now);
     }
-    writeStatus(now);
+    writeStatus();
     window_.waitEvents(0.0);
     for (double left = pace_.due() - secondsNow(); left > 0.0; left = pace_.due() - secondsNow())
         window_.waitEvents(left);

@@ -50,7 +50,7 @@ class ExperimentWindow {
     void follow();
     void moveMouse();
     void draw();
-    void writeStatus(double now);
+    void writeStatus();
     [[nodiscard]] std::vector<std::string> warnings() const;
 
     const ExperimentOptions& options_;
@@ -71,7 +71,6 @@ class ExperimentWindow {
     std::string problem_;
     StimulusPlayer::Reading reading_;
     FramePace pace_{1.0 / 30.0};
-    double statusAt_ = -1.0;
     uint64_t updates_ = 0;
 };
 

@@ -42,7 +42,7 @@ struct WindowOptions {
     std::optional<glm::ivec2> size;        ///< screen coordinates; none: that of the last run, or 1280x800
     float uiScale = 0.0f;             ///< beside the monitor's (figures/ui_scale.h); 0: that of the last run
     glm::ivec2 pictureSize{0};        ///< pixels of saved pictures; 0: as large as the window shows the model
-    std::filesystem::path statusJson; ///< written twenty times a second if given
+    std::filesystem::path statusJson; ///< written after each picture if given
     RecordingOptions recording;
     std::filesystem::path
         environment;           ///< a panorama that lights the picture; empty: the closed-form surroundings

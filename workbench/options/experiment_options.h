@@ -29,7 +29,7 @@ struct ExperimentOptions {
     bool noise = true;                  ///< white noise while something is felt
     glm::ivec2 size{1280, 800};         ///< screen coordinates
     std::string gpu{};                  ///< part of a Vulkan device's name
-    std::filesystem::path statusJson{}; ///< written twenty times a second if given, for scripts and tests
+    std::filesystem::path statusJson{}; ///< written after each picture if given, for scripts and tests
 };
 void defineExperiment(CLI::App& app, ExperimentOptions& options);
 /// Status 1 where a session or plot is missing from a report.

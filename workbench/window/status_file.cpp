@@ -129,9 +129,8 @@ nlohmann::ordered_json animationJson(const PanelInput& input, const PanelState& 
 
 void StatusFile::update(double now, const PanelInput& input, const PanelState& state,
                         const std::map<std::string, WidgetRect>& widgets, const Screen& screen) {
-    if (target_.empty() || (last_ >= 0.0 && now - last_ < kInterval))
+    if (target_.empty())
         return;
-    last_ = now;
     const ServoView& servo = *input.servo;
     const HapticOutput& tick = servo.last.output;
     const auto recentTicks = static_cast<size_t>(servo.rateHz * kLookBack);

@@ -20,17 +20,14 @@ class StatusFile {
         uint64_t otherMaterials = 0; ///< DrawnMaterials::redraws
         const ProgramEditor& programs;
     };
-    /// At most twenty times a second; does nothing without a target. `now`: s. `widgets` in window
-    /// coordinates.
+    /// Does nothing without a target. `now`: s. `widgets` in window coordinates.
     void update(double now, const PanelInput& input, const PanelState& state,
                 const std::map<std::string, WidgetRect>& widgets, const Screen& screen);
 
   private:
-    static constexpr double kInterval = 0.05; // s
-    static constexpr double kLookBack = 0.5;  // s, of the means and the largest values
+    static constexpr double kLookBack = 0.5; // s, of the means and the largest values
 
     std::filesystem::path target_;
-    double last_ = -1.0;
     uint64_t updates_ = 0;
 };
 

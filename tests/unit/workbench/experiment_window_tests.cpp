@@ -4,6 +4,7 @@
 #include "devices/external/external_packet.h"
 #include "experiment/people/person_session.h"
 #include "tests/unit/workbench/virtual_display.h"
+#include "tests/unit/workbench/window_status.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,6 @@ namespace touchstone::test::experiment_window_tests {
 namespace {
 
 using experiment::PersonSession;
-using Json = nlohmann::json;
 
 /// Two conditions of few trials: one varies segments, one nothing.
 constexpr const char* kStudy = R"json({
@@ -47,35 +47,22 @@ class ExperimentWindowTest : public testing::Test {
         start(more);
     }
     void start(const std::vector<std::string>& more = {}) {
-        std::filesystem::remove(status_);
+        std::filesystem::remove(status_.file());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
         environment.emplace_back("XDG_STATE_HOME=" + (scratch_ / "state").string());
         std::vector<std::string> arguments{
-            TOUCHSTONE_BINARY, "experiment",    study_.string(), "--person", "1",
-            "--out",           out_.string(),   "--size",        "1000x780", "--no-noise",
-            "--status-json",   status_.string()};
+            TOUCHSTONE_BINARY, "experiment",           study_.string(), "--person", "1",
+            "--out",           out_.string(),          "--size",        "1000x780", "--no-noise",
+            "--status-json",   status_.file().string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         program_ = std::make_unique<BackgroundProgram>(arguments, environment, scratch_ / "log");
         corner_ = display_.waitForWindow("Touchstone experiment");
         page("welcome");
     }
-    Json status() {
-        if (!program_->running())
-            throw std::runtime_error("the window has closed: " + readFile(scratch_ / "log"));
-        const std::string text = readFile(status_);
-        return text.empty() ? Json{{"update", 0}, {"page", ""}} : Json::parse(text);
-    }
+    Json status() { return status_.newest(*program_); }
     Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        const auto end = std::chrono::steady_clock::now() + kPatience;
-        while (std::chrono::steady_clock::now() < end) {
-            const Json now = status();
-            if (now["update"] > 0 && holds(now))
-                return now;
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-        throw std::runtime_error("waited in vain for " + what + ": " + status().dump(2) +
-                                 readFile(scratch_ / "log"));
+        return status_.until(*program_, what, holds);
     }
     Json page(const std::string& name) {
         return until("page " + name, [&](const Json& s) { return s["page"] == name; });
@@ -98,8 +85,8 @@ class ExperimentWindowTest : public testing::Test {
     [[nodiscard]] PersonSession session() const { return PersonSession::read(out_ / "person_01.session"); }
 
     ScratchFolder scratch_;
-    std::filesystem::path study_ = scratch_ / "study.json", out_ = scratch_ / "out",
-                          status_ = scratch_ / "status.json";
+    std::filesystem::path study_ = scratch_ / "study.json", out_ = scratch_ / "out";
+    WindowStatus status_{scratch_ / "status.json", scratch_ / "log", Json{{"update", 0}, {"page", ""}}};
     VirtualDisplay display_{1280, 800};
     VirtualDisplay::Place corner_;
     std::unique_ptr<BackgroundProgram> program_;

@@ -110,7 +110,6 @@ void GalleryWindow::tellsWhatIsBrokenAndForgetsWhatIsGone() {
     const std::filesystem::path own = scratch_ / "own.glb", gone = scratch_ / "gone.glb";
     std::filesystem::copy_file(TOUCHSTONE_ASSETS "/box.glb", own);
     std::filesystem::copy_file(TOUCHSTONE_ASSETS "/box.glb", gone);
-    std::filesystem::remove(status_);
     open(own.string());
     display_.drop("Touchstone", gone);
     until("the other", [](const Json& s) { return s["model"] == "gone.glb"; });

@@ -117,7 +117,6 @@ TEST_F(LayoutTest, SidePanelsAreMadeWiderByTheirEdgesAndKept) {
     EXPECT_EQ(picture(later(), "x"), picture(before, "x"));
     const double width = picture(status(), "width");
     expectCleanEnd();
-    std::filesystem::remove(status_);
     open(kDoughnut);
     EXPECT_EQ(picture(later(), "width"), width) << "kept";
     expectCleanEnd();
@@ -157,7 +156,6 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
     display_.key("F4");
     until("the charts to be folded", [](const Json& s) { return s["folded"]["charts"] == true; });
     expectCleanEnd();
-    std::filesystem::remove(status_);
     open(kDoughnut);
     const Json again = later();
     EXPECT_EQ(again["settings"]["friction"], "off");
@@ -167,17 +165,14 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
     expectCleanEnd();
 
     // What the command line says goes over that, also where it is the usual thing, and leaves the rest.
-    std::filesystem::remove(status_);
     open(kDoughnut, {"--set", "texture=off"});
     EXPECT_EQ(later()["settings"]["friction"], "off");
     EXPECT_EQ(status()["settings"]["texture"], "off");
     expectCleanEnd();
-    std::filesystem::remove(status_);
     open(kDoughnut, {"--set", "friction=zilles"});
     EXPECT_EQ(later()["settings"]["friction"], "zilles");
     EXPECT_EQ(status()["settings"]["texture"], "off") << "kept from the run before";
     expectCleanEnd();
-    std::filesystem::remove(status_);
     size_ = "1280x800"; // what a first run has; kept is 1000x780
     open(kDoughnut);
     EXPECT_NE(
@@ -188,7 +183,6 @@ TEST_F(LayoutTest, WhatWasChosenIsThereInTheNextRun) {
 
     // A file that says nothing.
     std::ofstream(scratch_ / "state/touchstone/window.json") << "{ \"version\": 1, \"folded\": [";
-    std::filesystem::remove(status_);
     open(kDoughnut);
     EXPECT_EQ(later()["settings"]["friction"], "zilles");
     expectCleanEnd();
@@ -210,7 +204,6 @@ TEST_F(LayoutTest, TypeGrowsByKeysAsFarAsItFitsAndIsKept) {
     display_.key("ctrl+shift+minus");
     until("the one asked for before", [](const Json& s) { return s["ui_scale"]["asked"] == 1.75; });
     expectCleanEnd();
-    std::filesystem::remove(status_);
     open(kDoughnut);
     EXPECT_EQ(later()["ui_scale"]["asked"], 1.75) << "kept";
     expectCleanEnd();
@@ -236,7 +229,6 @@ TEST_F(LayoutTest, AnAbsurdScaleOrSizeIsRefusedOrClampedWithAWarning) {
     EXPECT_NE(readFile(scratch_ / "log").find("it is opened as 640x400"), std::string::npos);
 
     std::ofstream(scratch_ / "state/touchstone/window.json") << R"({"version": 7, "ui_scale": 3})";
-    std::filesystem::remove(status_);
     size_ = "8192x8192";
     open(kDoughnut);
     const Json large = later();
@@ -329,7 +321,6 @@ TEST_F(LayoutTest, StripsAreChosenMadeTallerAndKept) {
     EXPECT_GE(later()["widgets"]["picture"]["height"], 180.0);
     const double kept = status()["charts"]["height"];
     expectCleanEnd();
-    std::filesystem::remove(status_);
     open(kDoughnut);
     const Json again = later();
     EXPECT_EQ(again["charts"]["shown"], (Json{"normal", "tangential", "x"}));

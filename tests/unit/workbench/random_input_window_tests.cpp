@@ -175,7 +175,6 @@ class RandomInput : public WindowTest {
 
     void episode(uint32_t seed, int rounds) {
         random_.seed(seed);
-        std::filesystem::remove(status_);
         std::vector<std::string> options;
         if (below(2) == 0)
             options = {"--hand", "simulated"};

@@ -3,20 +3,18 @@
 // own.
 
 #include "tests/unit/workbench/virtual_display.h"
+#include "tests/unit/workbench/window_status.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace touchstone::test {
-
-using Json = nlohmann::json;
 
 class WindowTest : public testing::Test {
   protected:
@@ -27,8 +25,9 @@ class WindowTest : public testing::Test {
               [](const Json& s) { return !s["loading"].get<bool>() && s["model"] != ""; });
     }
     void start(const std::string& scene, const std::vector<std::string>& more = {}) {
-        std::vector<std::string> arguments{TOUCHSTONE_BINARY, scene,           "--size", size_,
-                                           "--status-json",   status_.string()};
+        std::filesystem::remove(status_.file());
+        std::vector<std::string> arguments{TOUCHSTONE_BINARY,      scene, "--size", size_, "--status-json",
+                                           status_.file().string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         Environment environment = display_.environment();
         environment.emplace_back("TOUCHSTONE_VALIDATION=1");
@@ -45,33 +44,19 @@ class WindowTest : public testing::Test {
         }
     }
 
-    /// The newest status; fails when the program has gone.
-    Json status() {
-        if (!program_->running())
-            throw std::runtime_error("the window has closed: " + readFile(scratch_ / "log"));
-        const std::string text = readFile(status_);
-        return text.empty() ? Json{{"update", 0}, {"loading", true}, {"model", ""}} : Json::parse(text);
-    }
-
-    /// Waits for a status that says so, and returns it.
+    Json status() { return status_.newest(*program_); }
     Json until(const std::string& what, const std::function<bool(const Json&)>& holds) {
-        const auto end = std::chrono::steady_clock::now() + kPatience;
-        while (std::chrono::steady_clock::now() < end) {
-            const Json now = status();
-            if (now["update"] > 0 && holds(now))
-                return now;
-            std::this_thread::sleep_for(std::chrono::milliseconds(30));
-        }
-        throw std::runtime_error("waited in vain for " + what + ": " + status().dump(2) +
-                                 readFile(scratch_ / "log"));
+        return status_.until(*program_, what, holds);
     }
 
-    /// A status of the window as it is some pictures after now.
+    /// A status of the window after it has taken what was done before: a picture may be on its way that does
+    /// not know of it, the next one takes it, and the one after shows what moves to another place because of
+    /// it.
     Json later() {
         const Json before = status();
         const int frames = before.value("frames", 0);
         return until("a newer status", [&](const Json& s) {
-            return s["update"] >= before["update"].get<int>() + 2 && s["frames"] >= frames + 4;
+            return s["update"] >= before["update"].get<int>() + 3 && s["frames"] >= frames + 3;
         });
     }
     /// A status whose means and largest values, which look back half a second, are of wholly after now.
@@ -130,7 +115,8 @@ class WindowTest : public testing::Test {
     }
 
     ScratchFolder scratch_;
-    std::filesystem::path status_ = scratch_ / "status.json";
+    WindowStatus status_{scratch_ / "status.json", scratch_ / "log",
+                         Json{{"update", 0}, {"loading", true}, {"model", ""}}};
     /// Where a whole list of sliders is seen.
     static constexpr const char* kTall = "1000x780";
     std::string size_ = "900x600"; ///< of the window: the CPU draws it

@@ -251,7 +251,6 @@ TEST_F(WindowTest, SavesPicturesInTheirOwnSizeWhileTheServoGoesOn) {
     EXPECT_GT(later()["servo"]["ticks"], ticks);
     expectCleanEnd();
 
-    std::filesystem::remove(status_);
     open(kDoughnut);
     const Json shown = later()["widgets"].at("picture");
     const auto size = saved("doughnut-2.png");
