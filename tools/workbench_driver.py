@@ -29,7 +29,7 @@ class Workbench:
         self.process.wait()
 
     def status(self):
-        time.sleep(1.2)  # it is written twice a second
+        time.sleep(0.3)  # it is written after each picture
         return self.peek()
 
     def peek(self):

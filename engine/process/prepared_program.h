@@ -9,18 +9,19 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 namespace touchstone {
 
-/// A helper program that starts with "--copies", gets ready, and gives each question a copy of itself
-/// (engine/import/reader_child/own_copies.h): a process of its own with the limits, as startLimited's, which
-/// has what the program made ready. It starts with the first question, lives on without work, and ends with
-/// this object or this process. Where it has ended, by its limits or otherwise, the next question starts it
-/// again. Any thread but the servo's.
+/// A helper program that starts with "--copies SECONDS", gets ready, and then answers each question by a copy
+/// of itself (engine/import/reader_child/own_copies.h): a child of this process, within the same limits, with
+/// all that the program has prepared. The program starts with the first question, with the priority of the
+/// thread that asks; it reads no question itself. It ends with this object or with the process; where it has
+/// ended before, the next question starts it again. Any thread but the servo's.
 class PreparedProgram {
   public:
-    /// limits.seconds are for one question, limits.processorSeconds for one copy and for all that the program
-    /// itself does.
+    /// limits.seconds are for the wait for a copy, and again for its answer; limits.processorSeconds are the
+    /// copy's.
     PreparedProgram(std::filesystem::path program, const ProcessLimits& limits)
         : program_(std::move(program)), limits_(limits) {}
     ~PreparedProgram();
@@ -32,13 +33,16 @@ class PreparedProgram {
 
     /// Starts it where it does not run; does not wait until it is ready.
     void start();
-    /// As askProcess does, by a copy; where there is none to be had, by the program started anew. A copy ends
-    /// with this call; if this process is killed meanwhile, when its processor time is over.
+    /// As askProcess does, by a copy, or where there is none to be had by the program started anew. The copy
+    /// has at most the priority of the thread that asks. It ends before this returns; where this process is
+    /// killed meanwhile, at the end of its work or of its processor time.
     [[nodiscard]] ProcessAnswer ask(const FileDescriptor& input, uint64_t maxOutput,
                                     const std::function<bool()>& stop);
 
   private:
     pid_t copyFor(int input, int output, const std::function<bool()>& stop);
+    // With mutex_ held:
+    void startUnlessItRuns();
     bool runs();
     void end();
 
@@ -46,9 +50,10 @@ class PreparedProgram {
     ProcessLimits limits_;
     std::mutex mutex_;
     // By mutex_.
-    FileDescriptor socket_; ///< to the program; none: it does not run
-    pid_t pid_ = -1;        ///< of the program
-    pid_t owner_ = -1;      ///< who started it: a copy of this process, by fork, starts its own
+    FileDescriptor socket_;  ///< to the program; none: it has not started
+    FileDescriptor process_; ///< the program; none: the system has no such descriptors
+    pid_t owner_ = -1;       ///< who started it: a copy of this process, by fork, starts its own
+    unsigned failures_ = 0;  ///< in a row, to give a copy
 };
 
 } // namespace touchstone

@@ -22,9 +22,9 @@ class FileDescriptor {
     FileDescriptor& operator=(FileDescriptor&& other) noexcept;
     [[nodiscard]] int get() const { return descriptor_; } ///< -1: none
     void close();
+    int release(); ///< does not close it
 
   private:
-    int release();
     int descriptor_;
 };
 

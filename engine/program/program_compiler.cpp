@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/progress.h"
 #include "engine/process/helper_program.h"
+#include "engine/process/process_answer.h"
 #include "engine/program/spirv_reader.h"
 
 #include <signal.h>
@@ -135,14 +136,15 @@ std::string remedyFor(std::string_view message) {
 } // namespace
 
 PreparedProgram& installedProgramCompiler() {
-    static PreparedProgram compiler = [] {
+    // Never destroyed: a thread may still ask while the process ends, and the program ends with that.
+    static PreparedProgram& compiler = *[] {
         ProcessLimits limits;
         limits.processorSeconds = 5;
         limits.seconds = 30;
         limits.memory = std::max(kMaxMemory / 2, uint64_t{1} << 30);
         limits.fileSize = 0;
         limits.openFiles = 16;
-        return PreparedProgram(helperProgram("touchstone_program_compiler"), limits);
+        return new PreparedProgram(helperProgram("touchstone_program_compiler"), limits);
     }();
     return compiler;
 }

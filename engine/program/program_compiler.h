@@ -12,7 +12,7 @@
 namespace touchstone {
 
 /// touchstone_program_compiler beside the running program, the same for all who ask: at most 5 s of a
-/// processor, 1 GiB, and no file. Started, it has what is the same for each program, nine tenths of the time.
+/// processor, 1 GiB, and no file. Started, it has what is the same for each program, five sixths of the time.
 /// Any thread but the servo.
 [[nodiscard]] PreparedProgram& installedProgramCompiler();
 

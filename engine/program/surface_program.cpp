@@ -127,6 +127,13 @@ Held& held() {
 std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& name, std::string_view text,
                                                             const std::filesystem::path& file,
                                                             const std::function<bool()>& stop) {
+    return compileSurfaceProgram(name, text, file, stop, installedProgramCompiler());
+}
+
+std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& name, std::string_view text,
+                                                            const std::filesystem::path& file,
+                                                            const std::function<bool()>& stop,
+                                                            PreparedProgram& compiler) {
     const std::tuple key(name, std::string(text), file.string());
     {
         const std::lock_guard lock(held().mutex);
@@ -138,7 +145,7 @@ std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& n
     program->source = readProgramSource(name, text);
     program->text = text;
     program->file = file;
-    program->spirv = compileProgram(program->source, installedProgramCompiler(), stop);
+    program->spirv = compileProgram(program->source, compiler, stop);
     const std::lock_guard lock(held().mutex);
     std::erase_if(held().programs, [](const auto& each) { return each.second.expired(); });
     held().programs[key] = program;

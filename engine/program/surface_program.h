@@ -28,13 +28,19 @@ struct SurfaceProgram {
     std::filesystem::path file; ///< beside the model; empty: the source is inside the model's file
 };
 
-/// Compiles a source. Programs of the same name, text and file
-/// that are still held somewhere are shared and not compiled again. Throws Error, whose place is the line,
-/// and Cancelled; `stop` is asked every 20 ms. Any thread but the servo.
+class PreparedProgram; // engine/process/prepared_program.h
+
+/// Compiles a source, by installedProgramCompiler(). Programs of the same name, text and file that are still
+/// held somewhere are shared and not compiled again. Throws Error, whose place is the line, and Cancelled;
+/// `stop` is asked every 20 ms. Any thread but the servo.
 [[nodiscard]] std::shared_ptr<const SurfaceProgram> compileSurfaceProgram(const std::string& name,
                                                                           std::string_view text,
                                                                           const std::filesystem::path& file,
                                                                           const std::function<bool()>& stop);
+/// The same by another process of that compiler.
+[[nodiscard]] std::shared_ptr<const SurfaceProgram>
+compileSurfaceProgram(const std::string& name, std::string_view text, const std::filesystem::path& file,
+                      const std::function<bool()>& stop, PreparedProgram& compiler);
 
 /// Sides of a persistent texture, at most.
 inline constexpr uint32_t kMaxPersistentSide = 2048;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,25 @@ struct PixelData {
     std::vector<std::byte> bytes; ///< width * height * channels * componentSize
 
     /// Channel `c` at column x, row y, as 0..1 for integer types and as stored for float. No bounds check.
-    [[nodiscard]] float value(int x, int y, int c) const;
+    [[nodiscard]] float value(int x, int y, int c) const {
+        const size_t index = (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) *
+                                 static_cast<size_t>(channels) +
+                             static_cast<size_t>(c);
+        switch (type) {
+        case ComponentType::U8:
+            return static_cast<float>(std::to_integer<uint8_t>(bytes[index])) / 255.0f;
+        case ComponentType::U16: {
+            uint16_t stored = 0;
+            std::memcpy(&stored, &bytes[2 * index], sizeof stored);
+            return static_cast<float>(stored) / 65535.0f;
+        }
+        case ComponentType::F32:
+            break;
+        }
+        float stored = 0.0f;
+        std::memcpy(&stored, &bytes[4 * index], sizeof stored);
+        return stored;
+    }
 };
 
 /// An image of the file. `pixels` is empty when it is not needed or broken (`problem` states why).

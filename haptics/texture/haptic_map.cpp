@@ -53,11 +53,11 @@ HapticMap::HapticMap(const PixelData& pixels, const TextureRef& reference, int c
     level.height = pixels.height;
     level.texels.resize(static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
                         static_cast<size_t>(channels));
-    size_t out = 0;
+    float* out = level.texels.data();
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x)
             for (int k = 0; k < channels; ++k)
-                level.texels[out++] = pixels.value(x, y, std::min(k, pixels.channels - 1));
+                *out++ = pixels.value(x, y, std::min(k, pixels.channels - 1));
     for (float& texel : level.texels)
         texel = std::isfinite(texel) ? std::clamp(texel, -kLargestTexel, kLargestTexel) : 0.0f;
     least_ = INFINITY;
@@ -81,11 +81,13 @@ HapticMap::Level HapticMap::halved(const Level& fine) const {
     const auto channels = static_cast<size_t>(channels_);
     coarse.texels.assign(static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height) * channels,
                          0.0f);
+    std::vector<Cover> columnsOf; // the same for each row
+    for (int x = 0; x < coarse.width; ++x)
+        columnsOf.push_back(coverOf(x, fine.width, coarse.width));
     float* out = coarse.texels.data();
     for (int y = 0; y < coarse.height; ++y) {
         const Cover rows = coverOf(y, fine.height, coarse.height);
-        for (int x = 0; x < coarse.width; ++x, out += channels) {
-            const Cover columns = coverOf(x, fine.width, coarse.width);
+        for (const Cover& columns : columnsOf) {
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < columns.count; ++i) {
                     const size_t at = static_cast<size_t>(rows.first + j) * static_cast<size_t>(fine.width) +
@@ -93,6 +95,7 @@ HapticMap::Level HapticMap::halved(const Level& fine) const {
                     for (size_t k = 0; k < channels; ++k)
                         out[k] += rows.share[j] * columns.share[i] * fine.texels[at * channels + k];
                 }
+            out += channels;
         }
     }
     return coarse;

@@ -116,13 +116,15 @@ bool ProgramWorker::busy() {
 }
 
 void ProgramWorker::run() {
-    installedProgramCompiler().start(); // the first text is compiled the sooner
+    // One of its own, with this thread's priority: who opened the model may have had a lower one.
+    PreparedProgram compiler(installedProgramCompiler().program(), installedProgramCompiler().limits());
+    compiler.start(); // the first text is compiled the sooner
     while (!stop_) {
         std::optional<Job> job = next();
         if (!job)
             job = changedFile();
         if (job && job->report.program == nullptr)
-            compileNow(*std::move(job));
+            compileNow(*std::move(job), compiler);
         else if (job)
             finish(*std::move(job));
     }
@@ -209,15 +211,15 @@ bool ProgramWorker::superseded(const Job& job) {
            (!job.report.fromFile && sources_[job.report.source].version != job.version);
 }
 
-void ProgramWorker::compileNow(Job job) {
+void ProgramWorker::compileNow(Job job, PreparedProgram& compiler) {
     ProgramReport& report = job.report;
     {
         const std::lock_guard lock(mutex_);
         compiling_ = true;
     }
     try {
-        auto compiled =
-            compileSurfaceProgram(job.name, report.text, job.file, [&] { return superseded(job); });
+        auto compiled = compileSurfaceProgram(
+            job.name, report.text, job.file, [&] { return superseded(job); }, compiler);
         (void)program::translated(compiled->source, compiled->spirv); // the hand must be able to run it, too
         report.program = std::move(compiled);
     } catch (const Cancelled&) {

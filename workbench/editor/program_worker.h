@@ -81,7 +81,7 @@ class ProgramWorker {
     void run();
     [[nodiscard]] std::optional<Job> next();
     [[nodiscard]] std::optional<Job> changedFile();
-    void compileNow(Job job);
+    void compileNow(Job job, PreparedProgram& compiler);
     void finish(Job job);
     /// By another text, or since the worker ends.
     [[nodiscard]] bool superseded(const Job& job);

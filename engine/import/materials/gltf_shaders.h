@@ -13,7 +13,7 @@
 
 namespace touchstone {
 
-/// Sources that one file may have: each takes a process of its own for 0.14 s.
+/// Sources that one file may have: each takes a process of its own for some 10 ms.
 inline constexpr size_t kMaxFilePrograms = 64;
 
 /// A source as it is stated.

@@ -4,27 +4,42 @@
 
 #include <sched.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <optional>
+
 namespace touchstone {
 
-void becomeCopies() {
+namespace {
+
+/// In the copy.
+bool takeQuestion(const PassedStreams::Descriptors& streams, unsigned processorSeconds) {
+    rlimit time{RLIM_INFINITY, RLIM_INFINITY};
+    getrlimit(RLIMIT_CPU, &time);
+    time.rlim_cur = std::min<rlim_t>(time.rlim_cur, processorSeconds);
+    time.rlim_max = std::min<rlim_t>(time.rlim_max, rlim_t{processorSeconds} + 1); // SIGXCPU, then SIGKILL
+    return setrlimit(RLIMIT_CPU, &time) == 0 && dup2(streams[0], STDIN_FILENO) >= 0 &&
+           dup2(streams[1], STDOUT_FILENO) >= 0;
+}
+
+} // namespace
+
+void becomeCopies(unsigned processorSeconds) {
     while (const auto streams = PassedStreams().receive(STDIN_FILENO)) {
-        // As fork does, but a child of our parent (CLONE_PARENT), which can wait for it. fork's handlers are
-        // not called: there is one thread, and nothing is locked.
+        // As fork does, but a child of our parent (CLONE_PARENT), which can wait for it.
         const auto copy = static_cast<pid_t>(
             syscall(SYS_clone, CLONE_PARENT | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
-        if (copy == 0) {
-            if (dup2((*streams)[0], STDIN_FILENO) < 0 || dup2((*streams)[1], STDOUT_FILENO) < 0)
-                _exit(1);
-        }
+        if (copy == 0 && !takeQuestion(*streams, processorSeconds))
+            _exit(1);
         for (const int descriptor : *streams)
             close(descriptor);
         if (copy == 0)
             return;
-        if (send(STDIN_FILENO, &copy, sizeof copy, MSG_NOSIGNAL) < 0)
+        if (copy < 0 || send(STDIN_FILENO, &copy, sizeof copy, MSG_NOSIGNAL) < 0)
             break;
     }
     _exit(0);

@@ -5,13 +5,17 @@
 #include "tests/unit/programs/program_bench.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <string>
@@ -29,24 +33,23 @@ std::string wholeFile(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Children of any thread of ours that answer by copies, and the copies: they have the same command line.
-std::set<pid_t> compilers(pid_t process = getpid()) {
+/// Children of this process that answer by copies, and the copies: they have the same command line.
+std::set<pid_t> compilers() {
+    const std::string child = "\nPPid:\t" + std::to_string(getpid()) + "\n";
     std::set<pid_t> found;
-    for (const auto& thread :
-         std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
-        std::ifstream children(thread.path() / "children");
-        for (pid_t child = 0; children >> child;)
-            if (wholeFile("/proc/" + std::to_string(child) + "/cmdline").find("--copies") !=
-                std::string::npos)
-                found.insert(child);
-    }
+    for (const auto& entry : std::filesystem::directory_iterator("/proc"))
+        if (wholeFile(entry.path() / "status").find(child) != std::string::npos &&
+            wholeFile(entry.path() / "cmdline").find("--copies") != std::string::npos)
+            found.insert(std::stoi(entry.path().filename().string()));
     return found;
 }
 
+std::string statusOf(pid_t process) {
+    return wholeFile("/proc/" + std::to_string(process) + "/status");
+}
 /// Whether the system filters its calls.
 bool isInSandbox(pid_t process) {
-    return wholeFile("/proc/" + std::to_string(process) + "/status").find("\nSeccomp:\t2\n") !=
-           std::string::npos;
+    return statusOf(process).find("\nSeccomp:\t2\n") != std::string::npos;
 }
 
 FileDescriptor questionOf(const std::string& text) {
@@ -101,22 +104,22 @@ TEST(PreparedProgram, ItsCopiesAnswerAsTheProgramStartedAnewDoes) {
 TEST(PreparedProgram, AnswersManyThreadsAtOnceEachItsOwn) {
     PreparedProgram compiler = ownCompiler();
     std::vector<std::thread> threads;
-    std::vector<std::string> heights(8);
-    for (size_t i = 0; i < heights.size(); ++i)
+    std::vector<std::string> messages(8);
+    for (size_t i = 0; i < messages.size(); ++i)
         threads.emplace_back([&, i] {
             for (int again = 0; again < 3; ++again) {
                 // The message says which of them it is the answer to.
                 const ProcessAnswer answer =
                     compiler.ask(questionOf(touchBody("after.stiffness = unknown" + std::to_string(i) + ";")),
                                  kMost, kNever);
-                heights[i] += std::string(answer.output.begin(), answer.output.end());
+                messages[i] += std::string(answer.output.begin(), answer.output.end());
             }
         });
     for (std::thread& thread : threads)
         thread.join();
-    for (size_t i = 0; i < heights.size(); ++i)
-        for (size_t other = 0; other < heights.size(); ++other)
-            EXPECT_EQ(heights[i].find("unknown" + std::to_string(other)) != std::string::npos, i == other);
+    for (size_t i = 0; i < messages.size(); ++i)
+        for (size_t other = 0; other < messages.size(); ++other)
+            EXPECT_EQ(messages[i].find("unknown" + std::to_string(other)) != std::string::npos, i == other);
 }
 
 TEST(PreparedProgram, LivesLongerThanTheThreadThatStartedIt) {
@@ -165,29 +168,85 @@ TEST(PreparedProgram, WhatKnowsNoCopiesIsStartedForEachQuestion) {
     }
 }
 
+/// One that compiles for seconds, in a thread of its own.
+class LongQuestion {
+  public:
+    /// `niceness`: of the thread that asks.
+    explicit LongQuestion(PreparedProgram& compiler, int niceness = 0)
+        : before_(compilers()), asker_([this, &compiler, niceness] {
+              setpriority(PRIO_PROCESS, 0, niceness);
+              answer_ = compiler.ask(questionOf(longProgram()), kMost, [this] { return stop_.load(); });
+          }) {}
+    ~LongQuestion() { (void)end(); }
+    LongQuestion(const LongQuestion&) = delete;
+    LongQuestion& operator=(const LongQuestion&) = delete;
+
+    /// The copy that answers it, once it reads; -1: there is none.
+    [[nodiscard]] pid_t copy() const {
+        for (int i = 0; i < 5000; ++i) {
+            for (const pid_t one : compilers())
+                if (!before_.contains(one) && isInSandbox(one))
+                    return one;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        return -1;
+    }
+    /// Waits for the answer, and stops it.
+    ProcessAnswer end(bool stop = true) {
+        stop_ = stop;
+        if (asker_.joinable())
+            asker_.join();
+        return answer_;
+    }
+
+  private:
+    std::set<pid_t> before_;
+    std::atomic<bool> stop_{false};
+    ProcessAnswer answer_;
+    std::thread asker_;
+};
+
 TEST(PreparedProgram, OnlyItsCopiesReadAndTheyDoSoInTheSandbox) {
     PreparedProgram compiler = ownCompiler();
     const std::set<pid_t> others = compilers();
     expectCompiles(compiler);
     const std::set<pid_t> before = compilers();
     ASSERT_EQ(before.size(), others.size() + 1);
-    std::atomic<bool> stop{false};
-    ProcessAnswer answer;
-    std::thread asker(
-        [&] { answer = compiler.ask(questionOf(longProgram()), kMost, [&] { return stop.load(); }); });
-    bool found = false;
-    for (int i = 0; i < 1000 && !found; ++i) {
-        for (const pid_t one : compilers())
-            found = found || (!before.contains(one) && isInSandbox(one));
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    EXPECT_TRUE(found);
+    LongQuestion question(compiler);
+    EXPECT_GT(question.copy(), 0);
     for (const pid_t one : before)
         EXPECT_TRUE(others.contains(one) || !isInSandbox(one)) << "it would not get another copy";
-    stop = true;
-    asker.join();
-    EXPECT_EQ(answer.end, ProcessAnswer::End::Stopped);
+    EXPECT_EQ(question.end().end, ProcessAnswer::End::Stopped);
     EXPECT_EQ(compilers(), before) << "the copy has gone with the question";
+}
+
+TEST(PreparedProgram, ACopyHasThePriorityOfWhoAsks) {
+    PreparedProgram compiler = ownCompiler();
+    expectCompiles(compiler);
+    const int own = getpriority(PRIO_PROCESS, 0), lower = std::min(own + 5, 19);
+    for (const int niceness : {own, lower, own}) {
+        LongQuestion question(compiler, niceness);
+        const pid_t copy = question.copy();
+        ASSERT_GT(copy, 0);
+        EXPECT_EQ(getpriority(PRIO_PROCESS, static_cast<id_t>(copy)), niceness);
+    }
+}
+
+TEST(PreparedProgram, WhereACopyHasCrashedTheNextHasAnotherLayoutOfMemory) {
+    PreparedProgram compiler = ownCompiler();
+    expectCompiles(compiler);
+    const std::set<pid_t> before = compilers();
+    LongQuestion question(compiler);
+    const pid_t copy = question.copy();
+    ASSERT_GT(copy, 0);
+    kill(copy, SIGSEGV);
+    const ProcessAnswer answer = question.end(false);
+    EXPECT_EQ(answer.end, ProcessAnswer::End::Killed);
+    EXPECT_EQ(answer.status, SIGSEGV);
+    expectCompiles(compiler);
+    const std::set<pid_t> after = compilers();
+    EXPECT_EQ(after.size(), before.size());
+    EXPECT_NE(after, before) << "another process";
 }
 
 TEST(PreparedProgram, WhatIsStoppedWhileItStartsIsNotAnswered) {
@@ -239,17 +298,18 @@ TEST(PreparedProgram, EndsWithTheProcessHoweverThatEnds) {
     const pid_t copy = fork();
     if (copy == 0) {
         PreparedProgram compiler = ownCompiler();
-        compiler.start();
+        expectCompiles(compiler);
         const pid_t one = *compilers().begin();
         (void)!write(ends[1], &one, sizeof one);
         kill(getpid(), SIGKILL);
     }
     pid_t one = -1;
     ASSERT_EQ(read(ends[0], &one, sizeof one), static_cast<ssize_t>(sizeof one));
+    ASSERT_GT(one, 0);
     waitpid(copy, nullptr, 0);
     // Somebody else's child now, who may not have waited for it yet.
     const auto lives = [&] {
-        const std::string status = wholeFile("/proc/" + std::to_string(one) + "/status");
+        const std::string status = statusOf(one);
         return !status.empty() && status.find("State:\tZ") == std::string::npos;
     };
     for (int i = 0; i < 500 && lives(); ++i)

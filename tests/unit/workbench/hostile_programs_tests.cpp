@@ -4,6 +4,7 @@
 #include "engine/device_io/device_io.h"
 #include "tests/unit/workbench/program_window.h"
 
+#include <chrono>
 #include <cstdio>
 
 namespace touchstone::test::hostile_programs_tests {

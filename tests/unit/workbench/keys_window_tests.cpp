@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <sstream>
+#include <thread>
 
 namespace touchstone::test::keys_window_tests {
 namespace {
