@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace touchstone::test {
@@ -51,7 +53,7 @@ class ProgramWindow : public WindowTest {
     }
     void openSquare(const Json& shader, const Json& baseColor = {1.0, 1.0, 1.0, 1.0}) {
         writeSquare(model_, shader, baseColor);
-        open(model_.string(), {"--hand", "simulated"});
+        open(model_.string(), {"--hand", "simulated", "--stroke", "circle"});
         until("the hand to touch", [](const Json& s) { return s["recent"]["in_contact"].get<bool>(); });
     }
     /// Ctrl+S; what `inspect` then says of the file.
@@ -73,13 +75,18 @@ class ProgramWindow : public WindowTest {
                    !p["compiling"];
         });
     }
-    /// The mean force of a whole stroke to and fro, N.
+    /// The mean force, N, on the way of the circle, on which it is the same: two readings in a row are
+    /// nearly equal, where the hand comes, leaves or hovers they are not, or are 0.
     double force() {
-        double sum = 0.0;
-        constexpr int kReadings = 8; // of half a second and more
-        for (int i = 0; i < kReadings; ++i)
-            sum += measured()["recent"]["mean_force_n"].get<double>();
-        return sum / kReadings;
+        constexpr int kReadings = 30; // a circle three times round takes five of them, with the ways to it
+        double before = 0.0, now = 0.0;
+        for (int i = 0; i < kReadings; ++i) {
+            before = std::exchange(now, measured()["recent"]["mean_force_n"].get<double>());
+            if (before > 0.0 && std::abs(now - before) < 0.02 * before)
+                return now;
+        }
+        ADD_FAILURE() << "the force does not settle: " << before << " N, " << now << " N";
+        return now;
     }
     /// 0, 1, 2: of red, green and blue what most of the picture is; -1: neither.
     int colour() {
