@@ -42,12 +42,16 @@ ImGuiBackend::ImGuiBackend(GLFWwindow* window, const std::function<void()>& setU
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // no automatic files
     ImGui_ImplGlfw_InitForVulkan(window, true);
+#if IMGUI_VERSION_NUM < 18700
+    pointer_.emplace(window);
+#endif
     if (setUp)
         setUp();
 }
 
 ImGuiBackend::~ImGuiBackend() {
     leaveDevice();
+    pointer_.reset();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
@@ -84,6 +88,8 @@ void ImGuiBackend::leaveDevice() {
 void ImGuiBackend::beginFrame() {
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    if (pointer_)
+        pointer_->feed();
     ImGui::NewFrame();
 }
 

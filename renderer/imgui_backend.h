@@ -2,9 +2,11 @@
 // Dear ImGui in our window. Main thread only, private to renderer/.
 
 #include "renderer/gpu_impl.h"
+#include "renderer/pointer_queue.h"
 #include "renderer/window_target.h"
 
 #include <functional>
+#include <optional>
 
 struct ImDrawData;
 
@@ -26,6 +28,9 @@ class ImGuiBackend {
     void leaveDevice();
 
     void beginFrame();
+
+  private:
+    std::optional<PointerQueue> pointer_; ///< where ImGui has none of its own
 };
 
 /// True if the user interacts with an ImGui window, or did until now, in a way that must be visible at once;

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,6 +80,8 @@ bool takeStreams(const ProcessStreams& streams) {
     }
     if (!takeStreams(start.streams))
         _exit(kCannotStart);
+    // What others opened without O_CLOEXEC; the table of descriptors is the child's own.
+    syscall(SYS_close_range, static_cast<unsigned>(STDERR_FILENO) + 1, ~0u, 0);
     limit(RLIMIT_NOFILE, start.limits.openFiles);
     dropHandlers();
     sigprocmask(SIG_SETMASK, &start.signals, nullptr);

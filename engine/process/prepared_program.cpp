@@ -19,15 +19,21 @@ namespace touchstone {
 
 namespace {
 
-// glibc 2.36 declares pidfd_open and pidfd_send_signal without extern "C".
-
 /// Then it is started anew for each question: it does not know copies, or the system forbids them.
 constexpr unsigned kMostFailures = 2;
 
-/// The number of the copy, where it has come.
-pid_t receivedCopy(int socket) {
+/// The process number that a copy has sent, at most `wait` ms from now; -1: there is none.
+pid_t receivedCopy(int socket, int wait) {
+    pollfd ready{.fd = socket, .events = POLLIN, .revents = 0};
     pid_t copy = -1;
-    return recv(socket, &copy, sizeof copy, MSG_DONTWAIT) == sizeof copy ? copy : -1;
+    return poll(&ready, 1, wait) > 0 && recv(socket, &copy, sizeof copy, MSG_DONTWAIT) == sizeof copy ? copy
+                                                                                                      : -1;
+}
+
+void killAndWait(pid_t pid) {
+    kill(pid, SIGKILL);
+    while (waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+    }
 }
 
 /// Calls a function at the end, unless told not to.
@@ -51,33 +57,34 @@ PreparedProgram::~PreparedProgram() {
 bool PreparedProgram::runs() {
     if (socket_.get() < 0)
         return false;
-    if (owner_ != getpid()) { // and may have closed all descriptors since, so that the numbers are others'
-        (void)socket_.release();
-        (void)process_.release();
-        return false;
-    }
     pollfd ended{.fd = process_.get(), .events = POLLIN, .revents = 0};
-    if (poll(&ended, 1, 0) > 0)
+    if (owner_ != getpid() || crashed_.exchange(false) || poll(&ended, 1, 0) > 0)
         end();
     return socket_.get() >= 0;
 }
 
 void PreparedProgram::end() {
-    if (socket_.get() < 0 || owner_ != getpid())
+    if (socket_.get() < 0)
         return;
-    // By descriptors: where somebody else has waited for it, its number may be another's. Without them it
-    // ends with the socket.
-    if (process_.get() >= 0) {
+    if (owner_ != getpid()) { // a child, which may have closed all descriptors: their numbers may be others'
+        (void)socket_.release();
+        (void)process_.release();
+        return;
+    }
+    // By descriptor: where somebody else has waited for it, its number may be another's. (By syscall: glibc
+    // 2.36 declares the functions without extern "C".)
+    if (process_.get() < 0) {
+        killAndWait(pid_);
+    } else {
         syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
         siginfo_t how;
         while (waitid(P_PIDFD, static_cast<id_t>(process_.get()), &how, WEXITED) < 0 && errno == EINTR) {
         }
     }
-    if (const pid_t copy = receivedCopy(socket_.get()); copy > 0) { // nobody waits for it
-        kill(copy, SIGKILL);
-        while (waitpid(copy, nullptr, 0) < 0 && errno == EINTR) {
-        }
-    }
+    // A copy for which nobody waits: it sends its number before it lets go of the socket.
+    constexpr int kPatience = 1000; // ms
+    if (const pid_t copy = receivedCopy(socket_.get(), kPatience); copy > 0)
+        killAndWait(copy);
     socket_.close();
     process_.close();
 }
@@ -95,15 +102,16 @@ void PreparedProgram::startUnlessItRuns() {
     socket_ = FileDescriptor(ends[0]);
     const FileDescriptor theirs(ends[1]);
     ProcessLimits limits = limits_;
-    limits.endsWithThread = false; // the next question may come from another
-    // It works for a moment in each question, and must not be killed between a copy and its number.
-    limits.processorSeconds = std::numeric_limits<unsigned>::max();
+    limits.endsWithThread = false;                                  // the next question may come from another
+    limits.processorSeconds = std::numeric_limits<unsigned>::max(); // it works for a moment in each question
     owner_ = getpid();
-    const pid_t pid =
-        startLimited(program_.string(),
-                     {program_.filename().string(), "--copies", std::to_string(limits_.processorSeconds)},
-                     limits, {.input = theirs.get()});
-    process_ = FileDescriptor(pid > 0 ? static_cast<int>(syscall(SYS_pidfd_open, pid, 0)) : -1);
+    pid_ = startLimited(program_.string(),
+                        {program_.filename().string(), "--copies", std::to_string(limits_.processorSeconds)},
+                        limits, {.input = theirs.get()});
+    if (pid_ > 0)
+        process_ = FileDescriptor(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
+    else
+        socket_.close();
 }
 
 /// -1: there is none.
@@ -120,29 +128,25 @@ pid_t PreparedProgram::copyFor(int input, int output, const std::function<bool()
     startUnlessItRuns();
     if (socket_.get() < 0)
         return -1;
-    // A number that comes later must not be taken for the next question's.
+    // A process number that comes later must not be taken for the next question's.
     AtEnd ending{[this] { end(); }};
-    bool waits = PassedStreams().send(socket_.get(), input, output);
-    while (waits) {
+    pid_t copy = -1;
+    if (PassedStreams().send(socket_.get(), input, output)) {
         pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
-        poll(&ready, 1, kStopInterval);
-        if (ready.revents == 0) {
+        while (poll(&ready, 1, kStopInterval) <= 0)
             if (givesUp())
                 return -1;
-            continue;
-        }
-        const pid_t copy = receivedCopy(socket_.get());
-        waits = false;
-        if (copy > 0) {
-            // It has the program's, who may have been started by somebody more urgent.
-            setpriority(PRIO_PROCESS, static_cast<id_t>(copy), getpriority(PRIO_PROCESS, 0));
-            ending.wanted = false;
-            failures_ = 0;
-            return copy;
-        }
+        copy = receivedCopy(socket_.get(), 0);
     }
-    ++failures_;
-    return -1;
+    if (copy <= 0) {
+        failures_ += gives_ ? 0 : 1;
+        return -1;
+    }
+    // It has the priority of the program, which a thread with a higher one may have started.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(copy), getpriority(PRIO_PROCESS, 0));
+    ending.wanted = false;
+    gives_ = true;
+    return copy;
 }
 
 ProcessAnswer PreparedProgram::ask(const FileDescriptor& input, uint64_t maxOutput,
@@ -156,11 +160,10 @@ ProcessAnswer PreparedProgram::ask(const FileDescriptor& input, uint64_t maxOutp
         else
             answer = askProcess(program_.string(), {program_.filename().string()}, limits_, input, maxOutput,
                                 stop);
-    } else if (answer.end == Killed && answer.status != SIGXCPU) {
-        // All copies have the same layout of memory. What made one crash does not get another try at it.
-        const std::lock_guard lock(mutex_);
-        end();
     }
+    // All copies have the same layout of memory. What made one crash does not get another try at it.
+    if (answer.end == Killed && answer.status != SIGXCPU)
+        crashed_ = true;
     return answer;
 }
 

@@ -12,8 +12,8 @@
 namespace touchstone {
 
 /// touchstone_program_compiler beside the running program, the same for all who ask: at most 5 s of a
-/// processor, 1 GiB, and no file. Started, it has what is the same for each program, five sixths of the time.
-/// Any thread but the servo.
+/// processor, 1 GiB, and no file. Once started it has done what is the same for each program, five sixths of
+/// the work. Any thread but the servo.
 [[nodiscard]] PreparedProgram& installedProgramCompiler();
 
 /// SPIR-V with one function, whose uniform block has the source's parameters. Throws Error with the line and

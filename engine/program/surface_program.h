@@ -37,7 +37,7 @@ class PreparedProgram; // engine/process/prepared_program.h
                                                                           std::string_view text,
                                                                           const std::filesystem::path& file,
                                                                           const std::function<bool()>& stop);
-/// The same by another process of that compiler.
+/// The same, by this compiler.
 [[nodiscard]] std::shared_ptr<const SurfaceProgram>
 compileSurfaceProgram(const std::string& name, std::string_view text, const std::filesystem::path& file,
                       const std::function<bool()>& stop, PreparedProgram& compiler);

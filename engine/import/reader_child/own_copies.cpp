@@ -16,8 +16,12 @@ namespace touchstone {
 
 namespace {
 
-/// In the copy.
+/// In the copy. The parent gets its process number from itself, so that none is lost where the process that
+/// was copied is killed; and before standard input is no longer the socket, which a question must not have.
 bool takeQuestion(const PassedStreams::Descriptors& streams, unsigned processorSeconds) {
+    const pid_t self = getpid();
+    if (send(STDIN_FILENO, &self, sizeof self, MSG_NOSIGNAL) != sizeof self)
+        return false;
     rlimit time{RLIM_INFINITY, RLIM_INFINITY};
     getrlimit(RLIMIT_CPU, &time);
     time.rlim_cur = std::min<rlim_t>(time.rlim_cur, processorSeconds);
@@ -39,7 +43,7 @@ void becomeCopies(unsigned processorSeconds) {
             close(descriptor);
         if (copy == 0)
             return;
-        if (copy < 0 || send(STDIN_FILENO, &copy, sizeof copy, MSG_NOSIGNAL) < 0)
+        if (copy < 0)
             break;
     }
     _exit(0);
