@@ -9,8 +9,8 @@ namespace touchstone::test {
 
 namespace {
 
-// A frame and more lies between two events, in s as xdotool's sleep takes it. Where frames take longer, ImGui
-// keeps events in their order and gives those that would be lost in one frame a frame each.
+// A frame and more lies between two events, in s as xdotool's sleep takes it. Where frames take longer,
+// PointerQueue and KeyQueue keep events in their order, and give a frame those that it can tell apart.
 constexpr const char* kFrame = "0.04";
 
 void pause(int milliseconds) {
