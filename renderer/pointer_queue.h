@@ -10,10 +10,10 @@ struct GLFWwindow;
 
 namespace touchstone {
 
-/// Queues the pointer's events between GLFW and Dear ImGui before 1.87, which reads place and buttons once
-/// per frame: in a frame that takes a tenth of a second a press would count where the pointer has gone since,
-/// and a drag would end before its last move. Events wait in order; a frame takes moves up to the next button
-/// or turn of the wheel, one button, and no release after a move. Main thread.
+/// Queues the pointer's moves and buttons between GLFW and Dear ImGui before 1.87, which reads place and
+/// buttons once per frame: in a frame that takes a tenth of a second a press would count where the pointer
+/// has gone since. Events wait in order; a frame takes moves up to a button, and one button. (ImGui 1.87 has
+/// such a queue.) Main thread.
 class PointerQueue {
   public:
     /// After the callbacks of ImGui's backend are installed, which it replaces. One at a time.
@@ -26,26 +26,19 @@ class PointerQueue {
     void feed();
 
   private:
-    enum class Kind { Move, Button, Wheel };
     struct Event {
-        Kind kind = Kind::Move;
-        glm::dvec2 value{0.0}; ///< place in the window, or turn of the wheel
-        int button = 0;
+        bool move = false;
+        glm::dvec2 place{0.0}; ///< in the window, of a move
+        size_t button = 0;     ///< otherwise
         bool down = false;
     };
-    struct Frame {
-        bool moved = false, pressed = false, turned = false;
-    };
-    [[nodiscard]] bool fits(const Event& event, const Frame& frame) const;
-    void take(const Event& event, Frame& frame);
 
     GLFWwindow* window_;
     std::deque<Event> waiting_;
-    glm::dvec2 place_{0.0};
+    glm::dvec2 place_{0.0};      ///< of the last move that was taken
     std::array<bool, 5> down_{}; ///< ImGui's buttons
     void (*nextMove_)(GLFWwindow*, double, double) = nullptr;
     void (*nextButton_)(GLFWwindow*, int, int, int) = nullptr;
-    void (*nextWheel_)(GLFWwindow*, double, double) = nullptr;
 };
 
 } // namespace touchstone

@@ -35,9 +35,9 @@ struct ProcessStreams {
 constexpr int kCannotStart = 127;
 
 /// Starts a program with these standard streams (nothing is read from standard error), within these limits
-/// from its first instruction, and no other open file. The system's out-of-memory killer prefers it.
-/// `arguments` start with its name. Returns -1 where no process can be created. Does not copy our page
-/// tables: no page of the servo's may become copy-on-write.
+/// from its first instruction, and (from Linux 5.9 on) no other open file. The system's out-of-memory killer
+/// prefers it. `arguments` start with its name. Returns -1 where no process can be created. Does not copy our
+/// page tables: no page of the servo's may become copy-on-write.
 [[nodiscard]] pid_t startLimited(const std::string& program, const std::vector<std::string>& arguments,
                                  const ProcessLimits& limits, const ProcessStreams& streams = {});
 

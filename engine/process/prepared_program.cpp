@@ -117,10 +117,10 @@ void PreparedProgram::startUnlessItRuns() {
 /// -1: there is none.
 pid_t PreparedProgram::copyFor(int input, int output, const std::function<bool()>& stop) {
     const auto due = std::chrono::steady_clock::now() + std::chrono::seconds(limits_.seconds);
-    const auto givesUp = [&] { return stop() || std::chrono::steady_clock::now() >= due; };
+    const auto isDue = [&] { return std::chrono::steady_clock::now() >= due; };
     // Another thread may wait for the program to be ready.
     while (!mutex_.try_lock()) {
-        if (givesUp())
+        if (stop() || isDue())
             return -1;
         poll(nullptr, 0, 1);
     }
@@ -133,8 +133,8 @@ pid_t PreparedProgram::copyFor(int input, int output, const std::function<bool()
     pid_t copy = -1;
     if (PassedStreams().send(socket_.get(), input, output)) {
         pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
-        while (poll(&ready, 1, kStopInterval) <= 0)
-            if (givesUp())
+        while (poll(&ready, 1, kStopInterval) <= 0 && !isDue())
+            if (stop())
                 return -1;
         copy = receivedCopy(socket_.get(), 0);
     }
@@ -154,16 +154,15 @@ ProcessAnswer PreparedProgram::ask(const FileDescriptor& input, uint64_t maxOutp
     using enum ProcessAnswer::End;
     ProcessAnswer answer =
         answerOf([&](int output) { return copyFor(input.get(), output, stop); }, limits_, maxOutput, stop);
-    if (answer.end == NotStarted) {
-        if (stop())
-            answer.end = Stopped;
-        else
-            answer = askProcess(program_.string(), {program_.filename().string()}, limits_, input, maxOutput,
-                                stop);
-    }
-    // All copies have the same layout of memory. What made one crash does not get another try at it.
-    if (answer.end == Killed && answer.status != SIGXCPU)
+    if (answer.end == NotStarted && stop()) {
+        answer.end = Stopped;
+    } else if (answer.end == NotStarted) {
+        answer =
+            askProcess(program_.string(), {program_.filename().string()}, limits_, input, maxOutput, stop);
+    } else if (answer.end == Killed && answer.status != SIGXCPU) {
+        // All copies have the same layout of memory. What made one crash does not get another try at it.
         crashed_ = true;
+    }
     return answer;
 }
 

@@ -57,7 +57,7 @@ class PreparedProgram {
     pid_t pid_ = -1;         ///< of the program
     pid_t owner_ = -1;       ///< who started it: a child of this process, by fork, starts its own
     bool gives_ = false;     ///< it has given a copy, ever
-    unsigned failures_ = 0;  ///< times that it ended and never gave one
+    unsigned failures_ = 0;  ///< to give a copy, before it ever gave one
 
     std::atomic<bool> crashed_{false}; ///< a copy has
 };

@@ -155,7 +155,8 @@ void Widgets::besideArrow(float width) const {
 }
 
 bool Widgets::dragged() {
-    return ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+    const ImVec2 way = ImGui::GetIO().MouseDelta;
+    return ImGui::IsItemActive() || (ImGui::IsItemDeactivated() && (way.x != 0.0f || way.y != 0.0f));
 }
 
 float Widgets::buttonWidth(const char* label) {

@@ -51,8 +51,8 @@ class Widgets {
     /// Text in lines of the available width, broken between words only: ImGui also breaks behind points and
     /// commas, in the middle of a number. `color`: ImU32; 0: that of text.
     void wrapped(std::string_view text, unsigned color = 0) const;
-    /// Whether the last widget is dragged, or was let go in this frame: a slow frame may have the last way of
-    /// the pointer together with its release.
+    /// Whether the last widget is dragged, or was let go in this frame after a move: a slow frame may have
+    /// the last way of the pointer together with its release.
     [[nodiscard]] static bool dragged();
     /// Of a button with this label.
     [[nodiscard]] static float buttonWidth(const char* label);

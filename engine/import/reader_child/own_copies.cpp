@@ -17,7 +17,8 @@ namespace touchstone {
 namespace {
 
 /// In the copy. The parent gets its process number from itself, so that none is lost where the process that
-/// was copied is killed; and before standard input is no longer the socket, which a question must not have.
+/// was copied is killed. After that standard input is no longer the socket: a copy that reads must not have
+/// it.
 bool takeQuestion(const PassedStreams::Descriptors& streams, unsigned processorSeconds) {
     const pid_t self = getpid();
     if (send(STDIN_FILENO, &self, sizeof self, MSG_NOSIGNAL) != sizeof self)
