@@ -1,13 +1,13 @@
 #include "engine/process/limited_process.h"
 
+#include "engine/process/resource_limit.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <string_view>
 
 namespace touchstone {
@@ -22,17 +22,6 @@ struct Start {
     pid_t parent;
     sigset_t signals; ///< the caller's
 };
-
-/// A lower existing limit is kept. `beyond`: from the limit to where the system kills without a signal that
-/// says why.
-void limit(decltype(RLIMIT_CORE) what, rlim_t most, rlim_t beyond = 0) {
-    rlimit before{RLIM_INFINITY, RLIM_INFINITY};
-    getrlimit(what, &before);
-    const rlim_t lowest = std::min({most, before.rlim_cur, before.rlim_max});
-    const rlim_t room = before.rlim_max - lowest;
-    const rlimit both{lowest, lowest + std::min(beyond, room)};
-    setrlimit(what, &both);
-}
 
 /// In the child, whose table of handlers is its own: a handler of ours would run on our memory between the
 /// unblocking of the signals and exec. What is ignored stays ignored.
@@ -68,11 +57,11 @@ bool takeStreams(const ProcessStreams& streams) {
     if (start.limits.endsWithThread)
         prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != start.parent)
-        _exit(kCannotStart);                             // the parent ended before this call
-    limit(RLIMIT_CPU, start.limits.processorSeconds, 1); // SIGXCPU, then SIGKILL
-    limit(RLIMIT_DATA, start.limits.memory);
-    limit(RLIMIT_FSIZE, start.limits.fileSize);
-    limit(RLIMIT_CORE, 0);
+        _exit(kCannotStart);                                  // the parent ended before this call
+    lowerLimit(RLIMIT_CPU, start.limits.processorSeconds, 1); // SIGXCPU, then SIGKILL
+    lowerLimit(RLIMIT_DATA, start.limits.memory);
+    lowerLimit(RLIMIT_FSIZE, start.limits.fileSize);
+    lowerLimit(RLIMIT_CORE, 0);
     constexpr std::string_view kFirst = "1000";
     if (const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC); score >= 0) {
         [[maybe_unused]] const ssize_t written = write(score, kFirst.data(), kFirst.size());
@@ -82,7 +71,7 @@ bool takeStreams(const ProcessStreams& streams) {
         _exit(kCannotStart);
     // What others opened without O_CLOEXEC; the table of descriptors is the child's own.
     syscall(SYS_close_range, static_cast<unsigned>(STDERR_FILENO) + 1, ~0u, 0);
-    limit(RLIMIT_NOFILE, start.limits.openFiles);
+    lowerLimit(RLIMIT_NOFILE, start.limits.openFiles);
     dropHandlers();
     sigprocmask(SIG_SETMASK, &start.signals, nullptr);
     execv(start.program, start.arguments);

@@ -1,5 +1,6 @@
 #include "engine/process/prepared_program.h"
 
+#include "engine/process/child.h"
 #include "engine/process/passed_streams.h"
 
 #include <poll.h>
@@ -28,12 +29,6 @@ pid_t receivedCopy(int socket, int wait) {
     pid_t copy = -1;
     return poll(&ready, 1, wait) > 0 && recv(socket, &copy, sizeof copy, MSG_DONTWAIT) == sizeof copy ? copy
                                                                                                       : -1;
-}
-
-void killAndWait(pid_t pid) {
-    kill(pid, SIGKILL);
-    while (waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
-    }
 }
 
 /// Calls a function at the end, unless told not to.
@@ -74,7 +69,7 @@ void PreparedProgram::end() {
     // By descriptor: where somebody else has waited for it, its number may be another's. (By syscall: glibc
     // 2.36 declares the functions without extern "C".)
     if (process_.get() < 0) {
-        killAndWait(pid_);
+        const Child killed(pid_);
     } else {
         syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
         siginfo_t how;
@@ -84,7 +79,7 @@ void PreparedProgram::end() {
     // A copy for which nobody waits: it sends its number before it lets go of the socket.
     constexpr int kPatience = 1000; // ms
     if (const pid_t copy = receivedCopy(socket_.get(), kPatience); copy > 0)
-        killAndWait(copy);
+        const Child killed(copy);
     socket_.close();
     process_.close();
 }

@@ -1,5 +1,7 @@
 #include "engine/process/process_answer.h"
 
+#include "engine/process/child.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -17,40 +19,6 @@ namespace touchstone {
 namespace {
 
 constexpr size_t kBlock = size_t{1} << 18; // bytes read at once
-
-/// A child that is killed and awaited at the end of its life, unless it was awaited before.
-class Child {
-  public:
-    explicit Child(pid_t pid) : pid_(pid) {}
-    ~Child() {
-        if (running_) {
-            kill(pid_, SIGKILL);
-            wait(0);
-        }
-    }
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-
-    /// Whether it has ended; waits without WNOHANG.
-    bool wait(int options) {
-        if (!running_)
-            return true;
-        pid_t ended = 0;
-        do
-            ended = waitpid(pid_, &status_, options);
-        while (ended < 0 && errno == EINTR);
-        if (ended < 0) // SIGCHLD is ignored, or another thread has waited for it: how it ended is lost
-            status_ = SIGKILL;
-        running_ = ended == 0;
-        return !running_;
-    }
-    [[nodiscard]] int status() const { return status_; }
-
-  private:
-    pid_t pid_;
-    bool running_ = true;
-    int status_ = 0;
-};
 
 enum class Reading : uint8_t { Waiting, Ended, TooLong };
 

@@ -1,15 +1,14 @@
 #include "engine/import/reader_child/own_copies.h"
 
 #include "engine/process/passed_streams.h"
+#include "engine/process/resource_limit.h"
 
 #include <sched.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <optional>
 
 namespace touchstone {
@@ -23,12 +22,8 @@ bool takeQuestion(const PassedStreams::Descriptors& streams, unsigned processorS
     const pid_t self = getpid();
     if (send(STDIN_FILENO, &self, sizeof self, MSG_NOSIGNAL) != sizeof self)
         return false;
-    rlimit time{RLIM_INFINITY, RLIM_INFINITY};
-    getrlimit(RLIMIT_CPU, &time);
-    time.rlim_cur = std::min<rlim_t>(time.rlim_cur, processorSeconds);
-    time.rlim_max = std::min<rlim_t>(time.rlim_max, rlim_t{processorSeconds} + 1); // SIGXCPU, then SIGKILL
-    return setrlimit(RLIMIT_CPU, &time) == 0 && dup2(streams[0], STDIN_FILENO) >= 0 &&
-           dup2(streams[1], STDOUT_FILENO) >= 0;
+    lowerLimit(RLIMIT_CPU, processorSeconds, 1); // SIGXCPU, then SIGKILL
+    return dup2(streams[0], STDIN_FILENO) >= 0 && dup2(streams[1], STDOUT_FILENO) >= 0;
 }
 
 } // namespace
