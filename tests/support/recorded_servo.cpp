@@ -1,5 +1,6 @@
 #include "tests/support/recorded_servo.h"
 
+#include "engine/core/float_mode.h"
 #include "engine/load/scene_loader.h"
 #include "haptics/scene/scene_parts.h"
 #include "haptics/tick/stepped_hand.h"
@@ -124,6 +125,17 @@ void RecordedServo::ticks(uint64_t count, const std::function<void()>& each) {
             each();
         drain();
         pause();
+    }
+    drain();
+}
+
+void RecordedServo::steps(uint64_t count) {
+    constexpr uint64_t kBatch = 64; // ticks; the ring holds more
+    enterFloatMode();
+    for (uint64_t i = 0; i < count; ++i) {
+        (void)servo.step(servo.counters().ticks);
+        if (i % kBatch == kBatch - 1)
+            drain();
     }
     drain();
 }

@@ -48,7 +48,9 @@ class RecordedServo {
     /// Starts the servo where it does not run, and reads until `count` more ticks were made; calls `each`
     /// before each batch.
     void ticks(uint64_t count, const std::function<void()>& each = {});
-    /// Makes them and reads nothing.
+    /// Makes them on this thread, without a clock: no tick is late, whatever else the machine does.
+    void steps(uint64_t count);
+    /// Makes them on the servo's thread and reads nothing.
     void ticksUnread(uint64_t count);
     void drain();
     /// Stops the servo and ends the recordings.

@@ -232,13 +232,7 @@ TEST(Grasp, IsRecordedAndReplayedToTheLastBit) {
     rig.recorder.start(file, "test");
     rig.servo.setSettings(grasping());
     rig.offer(scene);
-    enterFloatMode();
-    for (uint64_t i = 0; i < 4000; ++i) {
-        (void)rig.servo.step(i);
-        if (i % 64 == 0)
-            rig.drain();
-    }
-    rig.drain();
+    rig.steps(4000);
     rig.finish();
     EXPECT_GT(rig.servo.bodyPoses()->workspaceFromBody[0].position.y, 0.04);
     expectEqualReplay(replayOf(file, rig.scenes));

@@ -199,25 +199,22 @@ TEST_F(FlightRecorderTest, AFolderThatCannotBeIsSaid) {
     EXPECT_TRUE(FlightRecorder::recover(impossible).empty());
 }
 
-TEST_F(FlightRecorderTest, WhatIsKeptOfARealServoReplaysFromTheMiddle) {
+TEST_F(FlightRecorderTest, WhatIsKeptOfAServoReplaysFromTheMiddle) {
     const TouchedScene doughnut = touchedScene("doughnut.glb");
-    std::atomic<bool> plugged{true};
+    bool plugged = true;
     RecordedServo rig(
         [&](double time) {
             DeviceSample sample = at(overTheDoughnut(time));
-            sample.valid = plugged.load();
+            sample.valid = plugged;
             return sample;
         },
         {.rateHz = 1000.0, .ringCapacity = 1 << 14, .wantRealtime = false});
     rig.recorder.startFlightRecorder(config(1.0));
     rig.offer(doughnut);
-    rig.ticks(3500);
+    rig.steps(3500);
     plugged = false;
-    rig.ticks(300);
-    std::vector<KeptFlight> kept = rig.recorder.takeKept();
-    std::erase_if(kept, [](const KeptFlight& flight) { // of a machine that is too busy for a kilohertz
-        return flight.file.filename().string().starts_with("safety-latched-");
-    });
+    rig.steps(300);
+    const std::vector<KeptFlight> kept = rig.recorder.takeKept();
     ASSERT_EQ(kept.size(), 1u);
     EXPECT_TRUE(kept[0].file.filename().string().starts_with("input-lost-")) << kept[0].file;
     const ReplayReport report = replayOf(kept[0].file, rig.scenes);

@@ -49,14 +49,6 @@ void expectSameBits(const std::vector<TickRecord>& records, const std::vector<Ti
             << "hand " << records[i].hand << ", tick " << i;
 }
 
-/// Steps the servo without a clock.
-void step(RecordedServo& rig, uint64_t ticks) {
-    enterFloatMode();
-    for (uint64_t i = 0; i < ticks; ++i)
-        (void)rig.servo.step(rig.servo.counters().ticks);
-    rig.drain();
-}
-
 class HandsTest : public testing::Test {
   protected:
     ScratchFolder scratch_;
@@ -70,12 +62,12 @@ TEST_F(HandsTest, OfTwoOnAMovingObjectEachIsWhatItIsAlone) {
     RecordedServo both(hands, kUnhurried);
     both.recorder.start(file_, "test");
     both.offer(scene);
-    step(both, 4000);
+    both.steps(4000);
     both.finish();
     for (uint32_t hand = 0; hand < 2; ++hand) {
         RecordedServo alone(hands[hand], kUnhurried);
         alone.offer(scene);
-        step(alone, 4000);
+        alone.steps(4000);
         const std::vector<TickRecord> records = recordsOf(both, hand);
         expectSameBits(records, alone.records);
         const auto contacts = std::ranges::count_if(
@@ -129,7 +121,7 @@ TEST_F(HandsTest, AHandThatVanishesChangesNothingForTheOther) {
     RecordedServo both({first, vanishing}, kUnhurried), alone(first, kUnhurried);
     for (RecordedServo* rig : {&both, &alone}) {
         rig->offer(scene);
-        step(*rig, 2000);
+        rig->steps(2000);
     }
     expectSameBits(both.records, alone.records);
     const std::vector<TickRecord> lost = recordsOf(both, 1);
@@ -148,7 +140,7 @@ TEST_F(HandsTest, AChangedTickOfTheSecondHandIsNamed) {
     RecordedServo rig({hand, hand}, kUnhurried);
     rig.recorder.start(file_, "test");
     rig.offer(scene);
-    step(rig, 1500);
+    rig.steps(1500);
     rig.finish();
     std::vector<RecordedItem> items = itemsOf(file_);
     for (RecordedItem& item : items)
@@ -181,7 +173,7 @@ TEST_F(HandsTest, PosesThatDifferAreNamed) {
     RecordedServo rig(tapping(scene, {0.3, 1.0, 0.2}, kStrong), kUnhurried);
     rig.recorder.start(file_, "test");
     rig.offer(scene);
-    step(rig, 300);
+    rig.steps(300);
     rig.finish();
     std::vector<RecordedItem> items = itemsOf(file_);
     for (RecordedItem& item : items)
@@ -214,7 +206,7 @@ TEST_F(HandsTest, TheFlightRecorderKeepsAllHandsAfterTheFaultOfOne) {
                                       .origin = recordingOrigin("flight recorder", 1000.0)});
     rig.offer(scene);
     for (int i = 0; i < 60; ++i)
-        step(rig, 50);
+        rig.steps(50);
     rig.finish();
     const std::vector<KeptFlight> kept = rig.recorder.takeKept();
     ASSERT_EQ(kept.size(), 1u);
@@ -230,13 +222,13 @@ TEST_F(HandsTest, DroppedTicksAreDroppedForAllHands) {
     RecordedServo rig({hand, hand, hand}, {.rateHz = 1000.0, .ringCapacity = 64, .wantRealtime = false});
     rig.recorder.start(file_, "test");
     rig.offer(touchedScene("doughnut.glb"));
-    step(rig, 40);
+    rig.steps(40);
     for (int i = 0; i < 700; ++i)
         (void)rig.servo.step(rig.servo.counters().ticks);
     rig.drain();
-    step(rig, 10);
+    rig.steps(10);
     for (int i = 0; i < 40; ++i)
-        step(rig, 50);
+        rig.steps(50);
     rig.finish();
     EXPECT_GT(rig.servo.counters().droppedRecords, 500u);
     ASSERT_EQ(rig.others.size(), 2 * rig.records.size());
@@ -322,7 +314,7 @@ TEST_F(HandsTest, ARecordingOfFormat1KeepsTheLimitsOfItsScene) {
         kUnhurried);
     rig.recorder.start(file_, "test");
     rig.offer(scene);
-    step(rig, 1200);
+    rig.steps(1200);
     rig.finish();
     std::vector<RecordedItem> items = itemsOf(file_);
     for (RecordedItem& item : items) {
@@ -347,7 +339,7 @@ TEST_F(HandsTest, ALostStateOfOneHandIsNoGap) {
     RecordedServo rig({hand, hand}, kUnhurried);
     rig.recorder.start(file_, "test");
     rig.offer(touchedScene("doughnut.glb"));
-    step(rig, 2500);
+    rig.steps(2500);
     rig.finish();
     std::vector<RecordedItem> items = itemsOf(file_);
     int states = 0;

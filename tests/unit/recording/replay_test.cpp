@@ -129,7 +129,7 @@ TEST_F(ReplayTest, ClutchAndZoomInContact) {
     });
     rig.recorder.start(file_, "test");
     rig.offer(touchedScene("doughnut.glb"));
-    rig.ticks(12000);
+    rig.steps(12000);
     rig.finish();
     const ReplayReport report = replayOf(file_, rig.scenes);
     expectEqualReplay(report);
@@ -180,7 +180,7 @@ TEST_F(ReplayTest, MaterialsThatChangeWhileTheyAreTouched) {
         });
         rig.recorder.start(file_, "test");
         rig.offer(scene);
-        rig.ticks(1500);
+        rig.steps(1500);
         std::mt19937 random(5);
         const auto number = [&](float most) { return most * static_cast<float>(random() % 1000u) / 1000.0f; };
         for (int i = 0; i < 40; ++i) {
@@ -193,7 +193,7 @@ TEST_F(ReplayTest, MaterialsThatChangeWhileTheyAreTouched) {
                 haptic.forceShading = i % 5 == 0 ? ShadingChoice::Off : ShadingChoice::Auto;
             });
             rig.offer(scene, SceneSwap::SameGeometry);
-            rig.ticks(120);
+            rig.steps(120);
         }
         rig.finish();
         const ReplayReport report = replayOf(file_, rig.scenes);
@@ -206,34 +206,34 @@ TEST_F(ReplayTest, MaterialsThatChangeWhileTheyAreTouched) {
 
 /// A hand that presses on a floor and holds still.
 TEST_F(ReplayTest, TouchGoesOnWhereOnlyTheMaterialChanges) {
-    std::atomic<double> height{0.01};
-    RecordedServo rig([&](double) { return at({0.01, height.load(), 0.02}); });
+    double height = 0.01;
+    RecordedServo rig([&](double) { return at({0.01, height, 0.02}); });
     rig.recorder.start(file_, "test");
     TouchedScene scene = floorScene(0.0f);
     rig.offer(scene);
-    rig.ticks(1000);
+    rig.steps(1000);
     height = -0.002;
-    rig.ticks(1000);
+    rig.steps(1000);
     const auto force = [&] { return rig.records.back().output.force; };
     const glm::dvec3 before = force();
     const size_t ramping = rig.countOf(TickFlag::ForceRamping), first = rig.records.size();
     ASSERT_GT(glm::length(before), 1.0);
     rig.offer(withChanged(scene, [](HapticMaterial&) {}), SceneSwap::SameGeometry);
-    rig.ticks(500);
+    rig.steps(500);
     EXPECT_EQ(force(), before) << "nothing has changed";
     scene = withChanged(scene, [](HapticMaterial& haptic) { haptic.stiffness.value = 1200.0f; });
     rig.offer(scene, SceneSwap::SameGeometry);
-    rig.ticks(500);
+    rig.steps(500);
     EXPECT_NEAR(glm::length(force()), 1200.0 / 600.0 * glm::length(before), 1e-6 * glm::length(before));
     EXPECT_EQ(rig.countOf(TickFlag::ForceRamping), ramping) << "no force fades in";
     for (size_t i = first; i < rig.records.size(); ++i)
         ASSERT_GT(rig.records[i].output.contacts, 0u) << "tick " << rig.records[i].tick;
     rig.offer(scene); // another world, though it is the same
-    rig.ticks(1000);
+    rig.steps(1000);
     EXPECT_GT(rig.countOf(TickFlag::ForceRamping), ramping);
     // Behind another world the geometry is that one's.
     rig.offer(scene, SceneSwap::SameGeometry);
-    rig.ticks(200);
+    rig.steps(200);
     rig.finish();
     rig.expectWithinLimits();
     expectEqualReplay(replayOf(file_, rig.scenes));
@@ -385,7 +385,7 @@ class TamperedTest : public ReplayTest {
         rig.servo.setSettings(settings);
         rig.recorder.start(file_, "test");
         rig.offer(touchedScene("doughnut.glb"));
-        rig.ticks(4000);
+        rig.steps(5000); // of a quarter of a millisecond: a second checkpoint
         rig.finish();
         scenes_ = rig.scenes;
         items_ = itemsOf(file_);
