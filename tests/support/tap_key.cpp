@@ -1,6 +1,6 @@
 // tap_key HOLD_MS GAP_MS COUNT KEY [KEY ...]: taps the keys in turn, COUNT times all of them, on the X server
-// of DISPLAY, by XTEST as if on the keyboard. A key may have modifiers: ctrl+q. Prints CLOCK_MONOTONIC in ns
-// at which each went down.
+// of DISPLAY, by XTEST as if on the keyboard. A key may have modifiers: ctrl+q. Prints for each that went
+// down when it was sent and when the server had taken it, CLOCK_MONOTONIC in ns.
 
 #include <X11/Xlib.h>
 #include <X11/extensions/XTest.h>
@@ -17,6 +17,10 @@
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+long long now() {
+    return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
+}
 
 std::vector<KeyCode> codesOf(Display* display, const std::string& chord) {
     std::vector<KeyCode> codes;
@@ -51,12 +55,11 @@ int main(int argc, char** argv) {
     for (int count = std::atoi(argv[3]); count > 0; --count)
         for (int i = 4; i < argc; ++i) {
             const std::vector<KeyCode> codes = codesOf(display, argv[i]);
-            const auto now = Clock::now().time_since_epoch();
+            const long long sent = now();
             for (const KeyCode code : codes)
                 XTestFakeKeyEvent(display, code, True, CurrentTime);
             XSync(display, False);
-            std::printf("%lld\n", static_cast<long long>(
-                                      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));
+            std::printf("%lld %lld\n", sent, now());
             std::this_thread::sleep_for(hold);
             for (auto code = codes.rbegin(); code != codes.rend(); ++code)
                 XTestFakeKeyEvent(display, *code, False, CurrentTime);

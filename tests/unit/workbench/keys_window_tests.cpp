@@ -13,6 +13,7 @@
 #include <map>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 namespace touchstone::test::keys_window_tests {
 namespace {
@@ -21,20 +22,23 @@ const std::string kDoughnut = TOUCHSTONE_ASSETS "/doughnut.glb";
 
 class KeysTest : public WindowTest {
   protected:
-    /// Taps the keys in turn, `count` times all of them, 5 ms each; returns when each went down, s
-    /// (CLOCK_MONOTONIC).
-    std::vector<double> tap(int count, int gapMs, const std::vector<std::string>& keys) {
+    /// A key that went down, s (CLOCK_MONOTONIC).
+    struct Tap {
+        double sent, taken; ///< by us, by the X server at the latest
+    };
+    /// Taps the keys in turn, `count` times all of them, 5 ms each.
+    std::vector<Tap> tap(int count, int gapMs, const std::vector<std::string>& keys) {
         const std::string program =
             (std::filesystem::path(TOUCHSTONE_BINARY).parent_path() / "tap_key").string();
         std::vector<std::string> arguments{program, "5", std::to_string(gapMs), std::to_string(count)};
         arguments.insert(arguments.end(), keys.begin(), keys.end());
         const ProgramResult result = runProgram(arguments, display_.environment());
         EXPECT_EQ(result.status, 0) << result.err;
-        std::vector<double> times;
+        std::vector<Tap> taps;
         std::istringstream lines(result.out);
-        for (std::string line; std::getline(lines, line);)
-            times.push_back(1e-9 * std::stod(line));
-        return times;
+        for (double sent = 0.0, taken = 0.0; lines >> sent >> taken;)
+            taps.push_back({1e-9 * sent, 1e-9 * taken});
+        return taps;
     }
     static bool forceOn(const Json& s) { return s["settings"]["forceEnabled"] == "on"; }
     static bool forceOff(const Json& s) { return s["settings"]["forceEnabled"] == "off"; }
@@ -64,7 +68,7 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
         load.push_back(std::make_unique<BackgroundProgram>(
             std::vector<std::string>{"sh", "-c", "while :; do :; done"}, Environment{}, scratch_ / "load"));
     const double start = later()["servo"]["start_s"];
-    const std::vector<double> taps = tap(count, 120, {"space"});
+    const std::vector<Tap> taps = tap(count, 120, {"space"});
     ASSERT_EQ(taps.size(), static_cast<size_t>(count));
     load.clear();
     const Json s = until("all presses", [&](const Json& now) { return now["force_presses"] == count; });
@@ -94,13 +98,15 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
     }
     ASSERT_GT(ticks.size(), 50u * taps.size());
     int lost = 0;
-    std::vector<double> untilOff, untilZero;
-    for (const double at : taps) {
+    std::vector<std::pair<double, double>> untilOff; // s, with what the X server took
+    std::vector<double> untilZero;
+    for (const auto& [at, taken] : taps) {
         const auto begin = std::upper_bound(ticks.begin(), ticks.end(), at,
                                             [](double t, const Tick& tick) { return t < tick.time; });
+        // Under this load the X server itself may take 45 ms: what it takes is not the program's.
         constexpr double kSoon = 0.05; // s
         auto off = begin;
-        while (off != ticks.end() && off->on && off->time < at + kSoon)
+        while (off != ticks.end() && off->on && off->time < taken + kSoon)
             ++off;
         if (off == ticks.end() || off->on) {
             ++lost;
@@ -111,7 +117,7 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
             ++zero;
         if (begin == ticks.begin() || !std::prev(begin)->commanded || zero == ticks.end())
             continue; // it was off
-        untilOff.push_back(off->time - at);
+        untilOff.emplace_back(off->time - at, taken - at);
         untilZero.push_back(zero->time - at);
     }
     EXPECT_EQ(lost, 0);
@@ -119,12 +125,12 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
         << "the window gives the force back between taps, as fast as it draws";
     std::ranges::sort(untilOff);
     std::ranges::sort(untilZero);
+    std::printf("%zu of %d taps took a force away\n", untilZero.size(), count);
     std::printf(
-        "%zu of %d taps took a force away; to the tick without: median %.2f ms, 95th percentile %.2f ms; to "
-        "a command of zero: median %.2f ms, 95th percentile %.2f ms, most %.2f ms\n",
-        untilZero.size(), count, 1e3 * untilOff[untilOff.size() / 2],
-        1e3 * untilOff[untilOff.size() * 95 / 100], 1e3 * untilZero[untilZero.size() / 2],
-        1e3 * untilZero[untilZero.size() * 95 / 100], 1e3 * untilZero.back());
+        "to the tick without: median %.2f ms, most %.2f ms, of which at most %.2f ms in the X server\n",
+        1e3 * untilOff[untilOff.size() / 2].first, 1e3 * untilOff.back().first, 1e3 * untilOff.back().second);
+    std::printf("to a command of zero: median %.2f ms, most %.2f ms\n", 1e3 * untilZero[untilZero.size() / 2],
+                1e3 * untilZero.back());
 }
 
 TEST_F(KeysTest, TheForceKeyWorksWhateverHasTheFocus) {
