@@ -62,7 +62,7 @@ TEST_F(TextureReplay, MeetsTextureAndForceToTheLastBit) {
     RecordedServo rig(brushing);
     rig.recorder.start(file_, "test");
     rig.offer(plaqueScene(256));
-    rig.ticks(8000);
+    rig.steps(8000);
     ASSERT_NE(rig.recorder.textures(), nullptr);
     EXPECT_LT(rig.recorder.textures()->at(0)->mean(), 0.99) << "it was brushed";
     rig.finish();
@@ -73,9 +73,9 @@ TEST_F(TextureReplay, MeetsTextureAndForceToTheLastBit) {
 TEST_F(TextureReplay, BeginsInTheMiddleAndGoesOnBehindAGap) {
     RecordedServo rig(brushing);
     rig.offer(plaqueScene(128));
-    rig.ticks(5000);
+    rig.steps(5000);
     rig.recorder.start(file_, "test"); // an eaten texture, whole in the file
-    rig.ticks(9000);
+    rig.steps(9000);
     rig.finish();
     const std::vector<RecordedItem> items = itemsOf(file_);
     const auto whole = std::ranges::count_if(
@@ -105,7 +105,7 @@ TEST_F(TextureReplay, AChangedStrokeIsNamed) {
     RecordedServo rig(brushing);
     rig.recorder.start(file_, "test");
     rig.offer(plaqueScene(64));
-    rig.ticks(3000);
+    rig.steps(3000);
     rig.finish();
     std::vector<RecordedItem> items = itemsOf(file_);
     for (RecordedItem& item : items)
@@ -125,11 +125,11 @@ TEST_F(TextureReplay, EditsOfTheMaterialLeaveTheTexture) {
     RecordedServo rig(brushing);
     rig.recorder.start(file_, "test");
     rig.offer(scene);
-    rig.ticks(4000);
+    rig.steps(4000);
     const double before = rig.recorder.textures()->at(0)->mean();
     rig.offer(withChanged(scene, [](HapticMaterial& material) { material.stiffness.value = 600.0f; }),
               SceneSwap::SameGeometry);
-    rig.ticks(4000);
+    rig.steps(4000);
     EXPECT_LT(rig.recorder.textures()->at(0)->mean(), before);
     rig.finish();
     expectEqualReplay(replayOf(file_, rig.scenes));
@@ -141,7 +141,7 @@ TEST_F(TextureReplay, BrushingALargeTextureTakesLessThanAMegabyteASecond) {
     RecordedServo rig(brushing, config);
     rig.recorder.start(file_, "test");
     rig.offer(plaqueScene(1024));
-    rig.ticks(6000);
+    rig.steps(6000);
     rig.finish();
     const double seconds = static_cast<double>(rig.records.size()) / 1000.0;
     const double rate = static_cast<double>(std::filesystem::file_size(file_)) / seconds;

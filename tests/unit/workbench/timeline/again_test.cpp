@@ -49,7 +49,7 @@ class AgainTest : public testing::Test {
         RecordedServo rig([](double time) { return at(overTheDoughnut(time)); });
         rig.recorder.start(file_, "test");
         rig.offer(touchedScene("doughnut.glb"));
-        rig.ticks(9000);
+        rig.steps(9000);
         rig.finish();
         return rig.records;
     }
@@ -63,7 +63,6 @@ TEST_F(AgainTest, TheLensShowsAllThatTheServoKnew) {
     const auto timeline = timelineOf(file_);
     ASSERT_EQ(timeline->size(), lived.size());
     ReplayCache replayCache(timeline, std::make_shared<RecordedSceneShelf>(file_));
-    // The hand follows the clock: which ticks are in contact is known only afterwards.
     std::vector<size_t> touching;
     for (size_t index = 0; index < lived.size(); ++index)
         if (lived[index].output.contacts > 0)

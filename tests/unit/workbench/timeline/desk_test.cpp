@@ -30,7 +30,7 @@ class ControllerTest : public testing::Test {
         RecordedServo rig([placed](double time) { return at(placed.point(overTheDoughnut(time))); });
         rig.recorder.start(file_, "test");
         rig.offer({source, haptic, identify(*haptic, *source, fit)});
-        rig.ticks(4000);
+        rig.steps(4000);
         rig.finish();
         lived_ = rig.records;
     }
@@ -137,7 +137,7 @@ TEST_F(ControllerTest, AVolumeSaysAtWhichValueItWasTouched) {
     RecordedServo rig([](double time) { return at({0.0, 0.05 - 0.01 * time, 0.0}); });
     rig.recorder.start(file_, "test");
     rig.offer({touched.scene, touched.haptic, identity});
-    rig.ticks(1000);
+    rig.steps(1000);
     rig.finish();
     opened_ = touched;
     identity_ = identity;
