@@ -125,6 +125,7 @@ void ViewControl::go(CameraMove move, const Situation& now) {
 }
 
 void ViewControl::update(const Situation& now, ViewOptions& options) {
+    armed_ = armed_ || !ImGui::GetIO().MouseDown[0]; // wherever the pointer is
     putDown_ = lifted_ > 0.0 && lifted_ <= now.seconds;
     lifted_ = std::max(0.0, lifted_ - now.seconds);
     if (!now.covered) {
@@ -219,7 +220,6 @@ void ViewControl::pointHand(const Situation& now, const ViewOptions& options) {
     if (!ImGui::IsMousePosValid())
         return;
     const Ray picker = camera_.rayThroughPixel(pointer - now.origin, now.area);
-    armed_ = armed_ || !io.MouseDown[0];
     if (const std::optional<PointedSurface> seen = now.look(picker)) {
         const PointedSurface surface = withRoom(now, *seen);
         liftWhereBlocked(now, MouseHand::hoverOver(surface));
