@@ -1,14 +1,13 @@
 #include "workbench/gallery/thumbnail_maker.h"
 
 #include "engine/import/file/image_decode.h"
+#include "engine/process/process_answer.h"
 #include "workbench/gallery/file_note.h"
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -32,13 +31,14 @@ PixelData readPicture(const std::filesystem::path& file) {
     return ours ? std::move(image.pixels) : PixelData{};
 }
 
-/// The fate of the file from the exit status of the process, where there is no picture.
-ThumbnailFate fateOf(int status) {
-    if (WIFEXITED(status))
-        return WEXITSTATUS(status) == kCannotStart ? ThumbnailFate::None : ThumbnailFate::Broken;
+/// The fate of the file from the end of the process, where there is no picture.
+ThumbnailFate fateOf(const ProcessAnswer& answer) {
+    using End = ProcessAnswer::End;
     // Killed by the system for lack of a resource; other signals are the process's own fault.
-    const bool ended = WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU);
-    return ended ? ThumbnailFate::None : ThumbnailFate::Broken;
+    const bool starved = answer.end == End::Killed && (answer.status == SIGKILL || answer.status == SIGXCPU);
+    const bool ownFault =
+        answer.end == End::Exited || answer.end == End::TooLong || (answer.end == End::Killed && !starved);
+    return ownFault ? ThumbnailFate::Broken : ThumbnailFate::None;
 }
 
 } // namespace
@@ -124,28 +124,14 @@ Thumbnail ThumbnailMaker::make(const Task& task) const {
 }
 
 ThumbnailFate ThumbnailMaker::draw(const Task& task, const std::filesystem::path& picture) const {
+    constexpr uint64_t kMaxOutput = 1 << 16; // bytes of messages, which nobody reads
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
     // Absolute, so that no name is parsed as an option.
-    const pid_t child = startLimited(program_.string(),
-                                     {"touchstone", "render", std::filesystem::absolute(task.file).string(),
-                                      "--size", size, "--out", picture.string()},
-                                     limits_);
-    if (child < 0)
-        return ThumbnailFate::None;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limits_.seconds);
-    for (;;) {
-        int status = 0;
-        const pid_t ended = waitpid(child, &status, WNOHANG);
-        if (ended != 0)
-            return ended == child ? fateOf(status) : ThumbnailFate::None;
-        if (task.stop.stop_requested() || task.cancels != cancels_ ||
-            std::chrono::steady_clock::now() >= end) {
-            kill(child, SIGKILL);
-            waitpid(child, &status, 0);
-            return ThumbnailFate::None;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    const std::vector<std::string> arguments{
+        "touchstone", "render",        std::filesystem::absolute(task.file).string(), "--size", size,
+        "--out",      picture.string()};
+    return fateOf(askProcess(program_.string(), arguments, limits_, FileDescriptor(), kMaxOutput,
+                             [&] { return task.stop.stop_requested() || task.cancels != cancels_; }));
 }
 
 } // namespace touchstone

@@ -54,8 +54,8 @@ class Strip {
           left_(corner_.x + widgets.units(kLabelWidth)), right_(corner_.x + ImGui::GetContentRegionAvail().x),
           height_(height), begin_(begin), end_(std::max(end, begin + 1e-6)), near_(near) {}
 
-    /// Curve, contact, marks and cursor; scrubs. True during a drag.
-    bool draw(const char* name) {
+    /// Curve, contact, marks and cursor; scrubs.
+    void draw(const char* name) {
         draw_.AddRectFilled(ImVec2(left_, top()), ImVec2(right_, bottom()), kCurveBackground, 3.0f);
         draw_.PushClipRect(ImVec2(left_, top()), ImVec2(right_, bottom()), true);
         findScale();
@@ -73,7 +73,7 @@ class Strip {
         if (least_ > 0.0)
             draw_.AddText(ImVec2(left_ + widgets_.units(4.0f), bottom() - ImGui::GetTextLineHeight()),
                           kCurveLabel, text);
-        return scrub(name);
+        scrub(name);
     }
     /// A line of the left column, from the top.
     void label(int row, ImU32 color, const char* text) const {
@@ -248,20 +248,18 @@ class Strip {
                                 ImVec2(x + grip, bottom()), kCurveCursor);
     }
 
-    bool scrub(const char* name) {
+    void scrub(const char* name) {
         ImGui::SetCursorScreenPos(ImVec2(left_, top()));
         ImGui::InvisibleButton(name, ImVec2(width(), height_));
         widgets_.mark(name);
         const float x = ImGui::GetIO().MousePos.x;
-        const bool dragged = Widgets::dragged();
-        if (dragged) {
+        if (Widgets::dragged()) {
             controller_.stopTouchingAgain();
             controller_.playback().play(false);
             controller_.playback().seek(secondsAt(std::clamp(x, left_, right_)));
         } else if (ImGui::IsItemHovered()) {
             tell(x);
         }
-        return dragged;
     }
 
     void tell(float x) const {
@@ -296,7 +294,7 @@ class Strip {
 void drawOverview(TimelineController& controller, float height, Widgets& widgets) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     Strip strip(controller, 0.0, controller.timeline().length(), false, height, widgets);
-    (void)strip.draw("timeline");
+    strip.draw("timeline");
     char text[48];
     std::snprintf(text, sizeof text, "%.3f s", controller.playback().seconds());
     strip.label(0, kCurveText, text);
@@ -320,7 +318,7 @@ void drawNear(TimelineController& controller, TimelinePanelState& state, float h
     state.nearBegin = std::clamp(state.nearBegin, 0.0, std::max(0.0, length - state.span));
     Strip strip(controller, state.nearBegin, std::min(length, state.nearBegin + state.span), true, height,
                 widgets);
-    (void)strip.draw("near");
+    strip.draw("near");
     const float wheel = ImGui::GetIO().MouseWheel;
     if (ImGui::IsItemHovered() && wheel != 0.0f) {
         const double share = std::clamp(offset, 0.0, 1.0);

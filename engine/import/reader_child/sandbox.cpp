@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 
 namespace touchstone {
 
@@ -27,7 +28,7 @@ constexpr size_t kCount = std::size(kAllowed);
 
 } // namespace
 
-bool enterSandbox() {
+void enterSandbox() {
     // Loads the architecture and refuses others, whose numbers mean other calls; loads the number and jumps
     // from the allowed ones to the last instruction. x32 numbers have bit 30 set and are on no list.
     std::array<sock_filter, kCount + 6> program{};
@@ -42,8 +43,9 @@ bool enterSandbox() {
     add(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM));
     add(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
     const sock_fprog filter{static_cast<unsigned short>(at), program.data()};
-    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter, 0, 0) == 0;
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+        prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter, 0, 0) != 0)
+        throw std::runtime_error("this system offers no sandbox (seccomp) to work in");
 }
 
 } // namespace touchstone

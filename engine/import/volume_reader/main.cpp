@@ -47,8 +47,7 @@ void readNifti(std::span<const uint8_t> file, uint64_t most) {
 
 void read(std::string_view format, uint64_t most, const char* header) {
     const std::span<const uint8_t> file = standardInput();
-    if (!enterSandbox())
-        throw BadVolume("this system offers no sandbox (seccomp) to read it in");
+    enterSandbox();
     const std::string_view text = header != nullptr ? header : "";
     const std::span<const uint8_t> before =
         header != nullptr ? std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()) : file;

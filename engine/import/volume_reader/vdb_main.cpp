@@ -19,8 +19,7 @@ void read(std::string_view format, uint64_t most, const char*) {
         throw BadVolume("usage: touchstone_vdb_reader vdb MOST <VOLUME");
     const std::span<const uint8_t> file = standardInput();
     prepareVdb();
-    if (!enterSandbox())
-        throw BadVolume("this system offers no sandbox (seccomp) to read it in");
+    enterSandbox();
     writeVdb(file, most);
     _exit(0); // memory is the system's to tidy
 }
