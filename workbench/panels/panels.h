@@ -21,8 +21,9 @@ void nextStroke(PanelState& state, int step);
 [[nodiscard]] std::string workspaceText(const DeviceMapping& mapping);
 /// The tool shelf of sculpting.
 void drawSculpt(const PanelInput& input, PanelState& state, Widgets& widgets);
-/// Its keys, as Blender's: F resizes, Ctrl inverts, Shift smooths.
-void sculptKeys(SculptChoice& choice);
+/// Its keys, as Blender's: F resizes, Ctrl inverts, Shift smooths. While a recording is looked at B marks a
+/// loop's end instead (timelineKeys).
+void sculptKeys(SculptChoice& choice, bool looking);
 /// The histogram and the value of the surface; nothing where the model is no volume.
 void drawVolume(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// The model's animations: which plays, where it is, play, pause and speed; nothing where none plays.
@@ -36,7 +37,7 @@ void drawTouched(const PanelInput& input, PanelState& state, Widgets& widgets);
 void drawNow(const PanelInput& input, PanelState& state, Widgets& widgets);
 /// Sound on and off, volume and status.
 void drawSound(const PanelInput& input, PanelState& state, Widgets& widgets);
-/// Every choice of method.
+/// The usual choices of method; --set has all.
 void drawConfigurations(PanelState& state, Widgets& widgets);
 /// Timing of the servo and of rendering.
 void drawServo(const PanelInput& input, Widgets& widgets);

@@ -101,8 +101,8 @@ void history(const SculptStatus& status, SculptChoice& choice, Widgets& widgets)
 
 } // namespace
 
-void sculptKeys(SculptChoice& choice) {
-    if (keyPressed(keyOf('b')))
+void sculptKeys(SculptChoice& choice, bool looking) {
+    if (!looking && keyPressed(keyOf('b')))
         choice.on = !choice.on;
     const ImGuiIO& io = ImGui::GetIO();
     const bool reads = choice.on && !io.WantTextInput;

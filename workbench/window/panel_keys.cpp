@@ -114,7 +114,7 @@ void zoomKeys(PanelState& state) {
 /// Keys that are inactive while a card has the keyboard.
 void coveredKeys(const PanelInput& input, PanelState& state) {
     zoomKeys(state);
-    sculptKeys(state.sculpt);
+    sculptKeys(state.sculpt, input.timeline->looking());
     if (keyPressed(keyOf('n')) && input.canSimulate)
         nextStroke(state, ImGui::GetIO().KeyShift ? -1 : 1);
     if (keyPressed(GLFW_KEY_F9))
