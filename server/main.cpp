@@ -55,8 +55,10 @@ int main(int count, char** arguments) {
            "--origin", options.origins,
            "Pages of another server may connect, too, with the token: http://localhost:8000; may be repeated")
         ->type_name("ORIGIN");
-    app.add_option("--device", options.device,
-                   "What is held: stroke[:NAME] (a simulated hand), or as `run --device` [stroke]")
+    app.add_option(
+           "--device", options.device,
+           "What is held: stroke[:NAME] (a simulated hand), or a device as `run --device` takes (stroke in "
+           "place of hand) [stroke]")
         ->type_name("DEVICE");
     app.add_option("--rate", options.rate, "Servo rate [1000]")
         ->type_name("HZ")

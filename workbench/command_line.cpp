@@ -52,7 +52,10 @@ class CommandLine {
         if (named == nullptr)
             return app_.help("", CLI::AppFormatMode::All);
         named->app->footer(named->footer());
-        return named->app->help();
+        std::string above; // of the usage line
+        for (const CLI::App* app = named->app->get_parent(); app != nullptr; app = app->get_parent())
+            above = app->get_name() + (above.empty() ? "" : " ") + above;
+        return named->app->help(above);
     }
 
   private:
@@ -145,7 +148,9 @@ void CommandLine::addStudies() {
     app_.add_subcommand("serve",
                         "Touch for other programs and a page in the browser, over a WebSocket (serve --help)")
         ->parse_complete_callback([] { throw CLI::ValidationError("serve", "has to be the first word"); });
-    add(app_, "experiment", "What people can tell: forced-choice studies with simulated people, and reports",
+    add(app_, "experiment",
+        "What people can tell: forced-choice studies with a person in a window or simulated people, and "
+        "reports",
         defineExperiment, experiment_);
 }
 

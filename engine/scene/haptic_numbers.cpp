@@ -11,6 +11,8 @@ constexpr float kLargest = kLargestHapticNumber;
 /// A power of two: no text of a file falls below it by its conversion to float.
 constexpr float kSmallest = 0x1p-100f;
 
+constexpr std::string_view kDerived = "derived from the roughness where the file states one, else none";
+
 constexpr std::array kNumbers{
     HapticNumber{{"stiffness", "stiffness", "N/m", kSmallest, kLargest, 20.0f, 3000.0f, true,
                   "the device's recommendation",
@@ -25,11 +27,11 @@ constexpr std::array kNumbers{
                   "stated damping is used before it; else damping is the stated stiffness times this time"},
                  &HapticStatement::retardationTime,
                  &HapticMaterial::retardationTime},
-    HapticNumber{{"staticFriction", "static friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+    HapticNumber{{"staticFriction", "static friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, kDerived,
                   "coefficient that holds a resting contact"},
                  &HapticStatement::staticFriction,
                  &HapticMaterial::staticFriction},
-    HapticNumber{{"dynamicFriction", "dynamic friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, "none",
+    HapticNumber{{"dynamicFriction", "dynamic friction", "", 0.0f, kLargest, 0.0f, 1.5f, false, kDerived,
                   "coefficient while sliding; above the static one it is cut to it"},
                  &HapticStatement::dynamicFriction,
                  &HapticMaterial::dynamicFriction},

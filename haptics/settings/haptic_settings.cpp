@@ -30,9 +30,11 @@ constexpr std::array kFields{
                            "force it replaces; all but sweep a point without a radius"),
     wordField<&S::precision>("precision", kPrecision,
                              "single: contact=rays finds contacts and solves for the proxy in floats"),
-    wordField<&S::forceShading>("forceShading", kShading,
-                                "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
-                                "direction, the choice of each material, or the two passes once a tick"),
+    wordField<&S::forceShading>(
+        "forceShading", kShading,
+        "interpolated normals: Ruspini's two passes, Ho's projection, Morgenbesser's "
+        "direction, the choice of each material, or the two passes once a tick; bezier: two "
+        "passes with a quadratic patch of normals"),
     wordField<&S::texture>(
         "texture", kTexture,
         "normal and height maps: displacement force law, Blinn's bump normal, Minsky's lateral force, or "

@@ -20,9 +20,8 @@ struct StageTrace {
     int reference = -1; ///< HapticScene::objects
 };
 
-/// The Stopwatch of the servo, `touch` and the replay. All three use one instantiation, since the compiler
-/// may round differently in another one (fused multiply-adds). Whether it reads a clock is decided at run
-/// time and changes no bit of the result.
+/// The Stopwatch of the servo, `touch` and the replay: all three use one instantiation, and so run the same
+/// code. Whether it reads a clock is decided at run time and changes no bit of the result.
 class StageTracer {
   public:
     /// One state and one trace per hand. `clock`: measures each stage; null: no clock is read.

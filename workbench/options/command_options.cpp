@@ -69,10 +69,10 @@ void addWindowDevices(CLI::App& app, WindowOptions& options) {
 } // namespace
 
 void defineDevices(CLI::App& app, DevicesOptions& options) {
-    CLI::Option* test =
-        app.add_option("--test", options.test,
-                       "Try one: how often it reports, how old samples are, where it is. As in --device")
-            ->type_name("DEVICE");
+    CLI::Option* test = app.add_option("--test", options.test,
+                                       "Try one: how often it reports, how old samples are, where it is. A "
+                                       "device as `run --device` takes, but for hand")
+                            ->type_name("DEVICE");
     app.add_option("--seconds", options.seconds, "How long [3]")
         ->type_name("S")
         ->check(within(0.1, 3600.0))
@@ -315,8 +315,8 @@ void defineReplay(CLI::App& app, ReplayOptions& options) {
                    for (const std::string& text : texts)
                        options.compare.push_back(comparedSettings(text));
                },
-               "Also touch it again with these settings changed (listed at the end of --help), and tell what "
-               "differs; may be given again, each is compared with the recorded ones")
+               "Also touch it again with these settings changed (listed at the end of touchstone --help), "
+               "and tell what differs; may be given again, each is compared with the recorded ones")
             ->type_name("'NAME=VALUE ...'")
             ->expected(1)
             ->take_all();

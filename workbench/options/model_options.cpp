@@ -15,7 +15,10 @@
 namespace touchstone {
 
 void defineEdit(CLI::App& app, EditOptions& options) {
-    addScene(app, options.scene)->required();
+    addScene(app, options.scene)
+        ->required()
+        ->description(
+            "Model: a .gltf, .glb, .obj, .stl or .ply file (a volume has no place for what is felt)");
     app.add_option("--material", options.materials,
                    "Which one: its name, its index in the file, or all; may be given again. Not needed where "
                    "the file has only one")
@@ -38,12 +41,14 @@ void defineEdit(CLI::App& app, EditOptions& options) {
                        ? std::string()
                        : hapticFieldProblem(name);
         });
-    addAssignments(app, "--field", "Set a field (listed at the end of --help); may be given again",
+    addAssignments(app, "--field", "Set a field (listed at the end of edit --help); may be given again",
                    [&options](std::string_view name, std::string_view value) {
                        options.fields.emplace_back(name, value);
                        return hapticValueProblem(name, value);
                    });
-    app.add_option("--out", options.out, "Save here; without it into the model's own file")
+    app.add_option("--out", options.out,
+                   "Save here; without it into the model's own file, where that is glTF: OBJ, STL and PLY "
+                   "need a new .glb")
         ->type_name("FILE");
 }
 

@@ -276,7 +276,7 @@ void addSettings(CLI::App& app, HapticSettings& settings) {
 CLI::Option* addPlant(CLI::App& app, PlantParameters& plant) {
     return addAssignments(app, "--plant",
                           "Change the simulated device or the hand that holds it (listed at the end of "
-                          "--help); may be given again",
+                          "run --help); may be given again",
                           [&plant](std::string_view name, std::string_view value) {
                               return setPlantParameter(plant, name, value);
                           });
@@ -343,7 +343,8 @@ void addRecording(CLI::App& app, RecordingOptions& options) {
 
 void addIso(CLI::App& app, std::optional<double>& iso) {
     app.add_option("--iso", iso,
-                   "Of a volume: the value at its surface; inside are the higher ones [Otsu's threshold]")
+                   "Of a volume: the value at its surface; inside are the higher ones [what the file states, "
+                   "else Otsu's threshold]")
         ->type_name("VALUE");
 }
 

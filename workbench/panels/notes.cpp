@@ -139,8 +139,8 @@ constexpr std::array kNotes{
     Note{"textureLaw", "Force law of texture", "texture"},
     Note{"frictionLaw", "Law of friction", "friction"},
     Note{"servoRate", "Ticks of the last second, and the rate asked for"},
-    Note{"servoMissed", "Ticks that began more than a period late, of all ticks"},
-    Note{"servoStolen", "Part of the servo's processor that other programs took"},
+    Note{"servoMissed", "Ticks whose step ended after the next deadline, of all ticks"},
+    Note{"servoStolen", "Time that the host took away from this machine, all processors"},
     Note{"servoPicture", "Pictures drawn in a second"},
     // Charts and recordings.
     Note{"live", "Charts of the last 10 s"},

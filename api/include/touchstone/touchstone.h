@@ -189,7 +189,7 @@ typedef struct ts_ticks {
     double* penetration; /* m */
     uint32_t* contacts;  /* touching features */
     uint32_t* friction;  /* 0 free, 1 sticks, 2 slides */
-    uint32_t* flags;     /* bits of docs/files.md */
+    uint32_t* flags;     /* bits: docs/files.md, Flags of a tick */
     int32_t* object;     /* touched object; -1: none */
     int32_t* triangle;   /* touched triangle of its mesh; -1: none */
     int64_t* step_ns;    /* ns that the tick took */
@@ -274,8 +274,8 @@ typedef struct ts_other_hand {
 typedef struct ts_session_options {
     size_t size;
     double rate; /* Hz, 100 to 4000; 0: 1000 */
-    /* What is held: "stroke" or "stroke:NAME" (a simulated hand), or what `run --device` takes. NULL: `own`.
-     */
+    /* What is held: "stroke" or "stroke:NAME" (a simulated hand), or a device as `run --device` takes
+     * ("stroke" in place of "hand"). NULL: `own`. */
     const char* device;
     const ts_device* own; /* copied; its context outlives the session */
     size_t keep;          /* ticks kept for ts_session_take; 0: none */

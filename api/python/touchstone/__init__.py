@@ -198,8 +198,9 @@ def _close_own_devices():
 
 
 class Session:
-    """Touch in real time, by a servo of the library's own. `device`: "stroke", "stroke:NAME" (a simulated hand), or what
-    `touchstone run --device` takes. `keep`: ticks kept for `take`. `control`: Hz of a control loop apart from contact, 100 to 4000.
+    """Touch in real time, by a servo of the library's own. `device`: "stroke", "stroke:NAME" (a simulated hand), or a device
+    as `touchstone run --device` takes ("stroke" in place of "hand"). `keep`: ticks kept for `take`. `control`: Hz of a
+    control loop apart from contact, 100 to 4000.
 
     A device of your own is two functions: `position()` returns three numbers (m, device frame) or None where it is unknown,
     `force(newtons)` gets an array of 3. A thread calls them `device_rate` times a second; the servo waits for neither, and where no
