@@ -118,7 +118,7 @@ void WorkbenchWindow::frame() {
                          forceWatch_.presses());
     lookBack(start);
     onScreen([this] {
-        keys_.feed();
+        keys_.feed(dialog_.awaitsText());
         if (screen_.target().beginFrame())
             draw();
         else

@@ -28,6 +28,7 @@ void FileDialog::browse() {
     desktop_.close();
     waiting_.clear();
     stage_ = Stage::Browser;
+    awaitsText_ = true;
     browser_.open(request_);
 }
 

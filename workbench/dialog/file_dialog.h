@@ -30,6 +30,9 @@ class FileDialog {
     /// While the browser has the keyboard.
     [[nodiscard]] bool covers() const { return stage_ == Stage::Browser || stage_ == Stage::Replace; }
     void close();
+    /// The browser's text field is to have the keyboard and does not have it yet; what draws it tells.
+    [[nodiscard]] bool awaitsText() const { return stage_ == Stage::Browser && awaitsText_; }
+    void setAwaitsText(bool awaits) { awaitsText_ = awaits; }
     /// While it asks for a name to save under.
     [[nodiscard]] bool saves() const { return open() && request_.saves(); }
 
@@ -51,7 +54,8 @@ class FileDialog {
     FileRequest request_;
     Stage stage_ = Stage::Closed;
     std::vector<DialogProgram> waiting_; ///< those that are asked if the one before is absent, in this order
-    bool asks_ = false;                  ///< the first of them, once the one before has ended
+    bool awaitsText_ = true;
+    bool asks_ = false; ///< the first of them, once the one before has ended
     DesktopDialog desktop_;
     FileBrowser browser_;
     std::filesystem::path target_;

@@ -142,7 +142,8 @@ bool list(FileBrowser& browser, float height, bool moved, Widgets& widgets) {
 }
 
 /// The text and what is done with it; true where it was entered.
-bool footer(FileBrowser& browser, Widgets& widgets) {
+bool footer(FileDialog& dialog, Widgets& widgets) {
+    FileBrowser& browser = dialog.browser();
     std::array<char, kPathBytes> text{};
     std::snprintf(text.data(), text.size(), "%s", browser.text().c_str());
     const float beside = widgets.units(kButton) + ImGui::GetStyle().ItemSpacing.x;
@@ -152,13 +153,15 @@ bool footer(FileBrowser& browser, Widgets& widgets) {
     const bool clicked = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() &&
                          ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
     bool& focus = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("focus"), false);
-    if (ImGui::IsWindowAppearing() || std::exchange(focus, false) || clicked)
+    const bool asks = ImGui::IsWindowAppearing() || std::exchange(focus, false) || clicked;
+    if (asks)
         ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-(beside + kinds));
     const bool entered = ImGui::InputTextWithHint(
         "##path", browser.request().saves() ? "name" : "part of a name, or a path (~ is home)", text.data(),
         text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     widgets.mark("openPath");
+    dialog.setAwaitsText(!ImGui::IsItemActive() && (asks || entered || dialog.awaitsText()));
     if (browser.text() != text.data())
         browser.setText(text.data());
     if (!browser.request().saves()) {
@@ -208,7 +211,7 @@ void drawBrowser(FileDialog& dialog, const WidgetRect& place, bool covered, Widg
         places(dialog.browser(), height, widgets);
         ImGui::SameLine();
         const bool opened = list(dialog.browser(), height, moved, widgets);
-        if ((footer(dialog.browser(), widgets) || opened) && dialog.open())
+        if ((footer(dialog, widgets) || opened) && dialog.open())
             dialog.enter();
         ImGui::GetIO().WantCaptureKeyboard = true; // the arrows do not move the camera in this frame
     }

@@ -81,8 +81,14 @@ void KeyQueue::pass(const Event& event) {
     }
 }
 
-void KeyQueue::feed() {
-    for (Frame frame; !waiting_.empty() && fits(waiting_.front(), frame); waiting_.pop_front())
+void KeyQueue::feed(bool textAwaited) {
+    awaited_ = textAwaited ? awaited_ + 1 : 0;
+    const bool holds = textAwaited && awaited_ <= kPatience;
+    const auto mayPass = [&](const Event& event) {
+        return !holds || (!event.character && event.action == GLFW_RELEASE);
+    };
+    for (Frame frame; !waiting_.empty() && mayPass(waiting_.front()) && fits(waiting_.front(), frame);
+         waiting_.pop_front())
         pass(waiting_.front());
 }
 

@@ -21,10 +21,12 @@ class KeyQueue {
     KeyQueue(const KeyQueue&) = delete;
     KeyQueue& operator=(const KeyQueue&) = delete;
 
-    /// Before each ImGui frame.
-    void feed();
+    /// Before each ImGui frame. `textAwaited`: a text field is to have the keyboard and does not have it yet,
+    /// which takes Dear ImGui some frames: presses and characters wait for it, for kPatience frames.
+    void feed(bool textAwaited = false);
 
   private:
+    static constexpr int kPatience = 10; // frames
     struct Event {
         bool character = false;
         int key = 0, scancode = 0, action = 0, modifiers = 0;
@@ -41,6 +43,7 @@ class KeyQueue {
     GLFWwindow* window_;
     std::function<void(int, int)> pressed_;
     std::deque<Event> waiting_;
+    int awaited_ = 0; // frames for which a text field has been awaited
     void (*nextKey_)(GLFWwindow*, int, int, int, int) = nullptr;
     void (*nextCharacter_)(GLFWwindow*, unsigned int) = nullptr;
 };
