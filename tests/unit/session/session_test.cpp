@@ -2,6 +2,7 @@
 
 #include "devices/simulated/simulated_hand.h"
 #include "devices/stroke/stroke_library.h"
+#include "engine/core/float_mode.h"
 #include "session/device_port.h"
 #include "session/session.h"
 #include "tests/support/recorded_servo.h"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -59,6 +61,13 @@ class SessionTest : public testing::Test {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         session_.pump(now);
     }
+    /// Made on this thread, without a clock: where a tick is late the force takes longer to its limit.
+    void steps(uint64_t count, double now) {
+        enterFloatMode();
+        for (uint64_t i = 0; i < count; ++i)
+            (void)session_.servo().step(session_.servo().counters().ticks);
+        session_.pump(now);
+    }
 
     TappingDevice first_{0.0}, second_{0.02};
     Session session_{{portOf(first_), portOf(second_)}, RecordedServo::kQuick};
@@ -74,14 +83,12 @@ TEST_F(SessionTest, EverySubscriberTakesEveryTickOfEveryHandInOrder) {
     HapticSettings settings;
     settings.stiffness = 321.0;
     session_.set(settings);
-    session_.start();
-    ticks(400, 1.5);
+    steps(400, 1.5);
     EXPECT_TRUE(session_.touching());
     settings.stiffness = 432.0;
     session_.set(settings);
     session_.set(settings);
-    ticks(400, 2.5);
-    session_.stop();
+    steps(400, 2.5);
     session_.pump(3.5);
     ASSERT_EQ(one_.records.size(), 2 * session_.servo().counters().ticks);
     ASSERT_EQ(two_.records.size(), one_.records.size());
@@ -104,8 +111,6 @@ TEST_F(SessionTest, EverySubscriberTakesEveryTickOfEveryHandInOrder) {
     EXPECT_EQ(one_.stiffness.back(), 432.0);
     EXPECT_EQ(session_.tick().step, session_.servo().counters().ticks - 1) << "the newest one";
     EXPECT_EQ(session_.tick().hand, 0u);
-    EXPECT_EQ(first_.sent, glm::dvec3(0.0)) << "at the end";
-    EXPECT_EQ(second_.sent, glm::dvec3(0.0));
 }
 
 TEST_F(SessionTest, OffersEachSceneBeforeItsTicksAndAgainWithANewFile) {
@@ -132,6 +137,8 @@ TEST_F(SessionTest, OffersEachSceneBeforeItsTicksAndAgainWithANewFile) {
     EXPECT_EQ(session_.scene().number, after);
     EXPECT_EQ(one_.records.front().scene, before);
     EXPECT_EQ(one_.records.back().scene, after);
+    EXPECT_EQ(first_.sent, glm::dvec3(0.0)) << "at the end";
+    EXPECT_EQ(second_.sent, glm::dvec3(0.0));
 }
 
 /// A path on what moves was carried by the time of the tick: at half the speed the hand dived by 21 mm.

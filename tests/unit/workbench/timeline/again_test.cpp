@@ -387,7 +387,9 @@ class AgainServo {
         size_t seen = 0;
         TouchAgain::Means means;
         while (again.running()) {
-            rig_.ticks(20);
+            if (!again.seconds())
+                pause(); // the worker may be reading, and steps wait for no clock
+            rig_.steps(20);
             for (; seen < rig_.records.size(); ++seen)
                 history_.add(rig_.records[seen], false);
             again.update(history_, rig_.records.back().time);
