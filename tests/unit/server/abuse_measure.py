@@ -95,6 +95,12 @@ class Watcher:
                 states.append((time.monotonic(), message))
         return states, ticks
 
+    def fresh(self):
+        """A state from after this call: what has piled up comes before the answer, and only its ticks are kept."""
+        self.client.ask("ping")
+        self.client.events.clear()
+        return self.client.event("state")
+
 
 def servo_times(states):
     """p50, p99 and the largest, us, from the deadline of a tick to its end, of the ticks that the states tell."""
@@ -111,10 +117,13 @@ def latency(states, begun):
 
 
 def turn(watcher, pid, name):
+    first = watcher.fresh()
     states, ticks = watcher.read(SECONDS)
-    begun = states[-1][1]["started"]
-    done, missed = (states[-1][1][what] - states[0][1][what] for what in ("ticks", "missed"))
-    forces = [numpy.linalg.norm(block["command"], axis=1).max() for block in ticks if len(block)]
+    last = watcher.fresh()  # the newest that was read may be old where this process had to wait
+    begun = last["started"]
+    done, missed = (last[what] - first[what] for what in ("ticks", "missed"))
+    forces = [numpy.linalg.norm(block["command"], axis=1).max() for block in (*watcher.client.ticks, *ticks) if len(block)]
+    watcher.client.ticks.clear()
     row = dict(zip(("p50", "p99", "most"), servo_times(states)))
     row.update(zip(("late50", "late99"), latency(states, begun)))
     row.update(states=len(states), ticks=done, missed=missed, force=max(forces, default=0.0), memory=resident(pid))

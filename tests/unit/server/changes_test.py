@@ -99,16 +99,26 @@ class Moving(Server):
         self.assertTrue((ways <= 0.2 * (steps + 0.25) + 1e-12).all(), (ways - 0.2 * steps).max())  # a pose may be newer than the state
         self.assertTrue((seen[:, 4] > 0).any())  # it was touched while it moved; a busy machine samples few states
         self.assertLessEqual(numpy.linalg.norm(seen[:, 5:8], axis=1).max(), 8.5 + 1e-9)
+
+        def later(ticks):
+            """Where the objects are so many ticks later."""
+            begin = watcher.state()["ticks"]
+            while (state := watcher.state())["ticks"] < begin + ticks:
+                pass
+            return state["moved"]
+
         # Halted on its way, by who drives or because nobody does: it stays where it is.
         for stop in (lambda: driver.ask("halt"), driver.close):
             driver.ask("move", object=0, position=[0.5, 0, 0], speed=0.05)
             while watcher.state()["moved"][0]["position"][0] < 0.002:
                 pass
             stop()
-            time.sleep(0.2)
-            before = watcher.state()["moved"]
-            time.sleep(0.3)
-            self.assertEqual(watcher.state()["moved"], before)
+            for _ in range(20):  # the server comes to a closed connection when it can
+                before = later(50)
+                if later(50) == before:
+                    break
+            self.assertEqual(later(300), before)
+            self.assertLess(before[0]["position"][0], 0.4)
         watcher.ask("drive")
         watcher.ask("record", file="")
         replay = subprocess.run([PROGRAM, "replay", str(self.folder / "root" / "moved.tsrec")], capture_output=True, text=True, timeout=120)

@@ -264,12 +264,20 @@ class Abuse(Server):
         client = self.client()
         self.touching(client)
         client.ask("subscribe", ticks=True)
+        states = []
         while sum(map(len, client.ticks)) < 1000:
-            client.event("state")
+            states.append(client.event("state"))
         times = numpy.concatenate(client.ticks)["time"]
-        steps = numpy.diff(times)
-        self.assertTrue((steps > 0).all())
-        self.assertAlmostEqual(float(numpy.median(steps)), 1e-3, places=9)
+        steps = 1e3 * numpy.diff(times)  # a late servo passes over some
+        self.assertGreater(steps.min(), 0.5)
+        self.assertLess(numpy.abs(steps - numpy.rint(steps)).max(), 1e-6)
+        # None is missing: of the ticks that a state counts the stream lacks those before it alone, as many at its end as at its beginning. The counter
+        # is read just behind the state and may count some more.
+        lacking = [state["ticks"] - int(numpy.searchsorted(times, state["time"], "right")) for state in states
+                   if times[0] <= state["time"] <= times[-1]]
+        self.assertGreater(len(lacking), 5)
+        third = len(lacking) // 3
+        self.assertAlmostEqual(min(lacking[:third]), min(lacking[-third:]), delta=5)
 
 
 if __name__ == "__main__":
