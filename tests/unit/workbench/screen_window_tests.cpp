@@ -81,7 +81,7 @@ TEST_F(ScreenWindowTest, AnySizeWillDo) {
     resize(1000, 780);
     const Json now = later();
     EXPECT_GT(now["widgets"]["picture"]["width"], 200.0);
-    EXPECT_TRUE(modelIsSeen());
+    until("the model on the screen", [&](const Json&) { return modelIsSeen(); });
     expectSilentEnd();
 }
 
@@ -125,14 +125,19 @@ TEST_F(ScreenWindowTest, MinimisedItGoesOnTouchingAndComesBack) {
     open(kDoughnut, {"--hand", "simulated"});
     for (int i = 0; i < 3; ++i) {
         iconify(true);
-        pause(500); // what was begun is drawn
-        const Json before = status();
-        pause(1000);
-        EXPECT_EQ(status()["update"], before["update"]) << "nothing is drawn";
+        Json before;
+        bool still = false;
+        for (int tries = 0; tries < 30 && !still; ++tries) { // what was begun is drawn first
+            before = status();
+            pause(2000);
+            still = status()["update"] == before["update"];
+        }
+        EXPECT_TRUE(still) << "nothing is drawn";
         iconify(false);
-        const Json after = later();
+        const Json after = until("a picture", [&](const Json& s) { return s["update"] > before["update"]; });
         EXPECT_GT(after["servo"]["ticks"].get<int>(), before["servo"]["ticks"].get<int>() + 500)
             << "but what is felt went on";
+        later();
     }
     // Unmapped without being told that it is minimised, and of no size while it is.
     display_.xdotool({"windowunmap", window()});
@@ -203,10 +208,10 @@ TEST_F(DeviceLossWindowTest, ItSaysSoAndGoesOn) {
     std::array<std::chrono::steady_clock::time_point, 2> last{now() - std::chrono::minutes(1), last[0]};
     for (const std::string kind : {"submit", "present", "acquire", "wait", "surface"}) {
         std::this_thread::sleep_until(last[0] + std::chrono::seconds(12));
-        last = {last[1], now()};
         const Json before = status();
         loss_.lose(kind, 5);
         untilLost();
+        last = {last[1], now()};
         const Json told = until("a word about it", [](const Json& s) {
             return s["problem"].get<std::string>().find("graphics device was lost") != std::string::npos;
         });

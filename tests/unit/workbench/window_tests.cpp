@@ -36,8 +36,8 @@ TEST_F(WindowTest, TheContactMethodCanBeChosenWhileTouching) {
     until("the neighbourhood watch to be chosen",
           [](const Json& s) { return s["settings"]["contact"] == "neighbourhood"; });
     measured();
-    const Json walked = until("the hand to touch again", touching);
-    EXPECT_GT(walked["recent"]["mean_force_n"], 0.05);
+    until("the hand to press again",
+          [](const Json& s) { return touching(s) && s["recent"]["mean_force_n"] > 0.05; });
     expectCleanEnd();
 }
 
@@ -75,23 +75,26 @@ TEST_F(WindowTest, TheRecordButtonRecordsWhatReplaysToTheLastBit) {
     EXPECT_GT(figures["contact"]["ticks"], 100);
     EXPECT_EQ(figures["replayed"], figures["ticks"]) << "it begins at a checkpoint";
     expectCleanEnd();
-    EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "state/touchstone/flight")) << "no fault, nothing kept";
+    for (const auto& kept : std::filesystem::directory_iterator(scratch_ / "state/touchstone/flight"))
+        EXPECT_TRUE(kept.path().filename().string().starts_with("safety-latched-"))
+            << kept.path() << ": no fault but of a machine that is too busy for a kilohertz, nothing kept";
 }
 
 TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
     open(kDoughnut, {"--hand", "simulated", "--set", "staticFriction=0.6", "--set", "dynamicFriction=0.5",
                      "--set", "texture=off"});
     until("the hand to touch", touching);
-    const Json on = measured();
+    measured();
+    const Json on = until("the hand to press and rub", [](const Json& s) {
+        return s["recent"]["mean_force_n"] > 0.05 && s["recent"]["mean_tangential_force_n"] > 0.02;
+    });
     ASSERT_EQ(on["settings"]["friction"], "zilles");
-    EXPECT_GT(on["recent"]["mean_force_n"], 0.05);
-    EXPECT_GT(on["recent"]["mean_tangential_force_n"], 0.02);
 
     display_.click(middleOf("friction"));
     until("friction to be off", [](const Json& s) { return s["settings"]["friction"] == "off"; });
     measured();
-    const Json off = until("the hand to touch again", touching);
-    EXPECT_GT(off["recent"]["mean_force_n"], 0.05);
+    const Json off = until("the hand to press again",
+                           [](const Json& s) { return touching(s) && s["recent"]["mean_force_n"] > 0.05; });
     EXPECT_LT(off["recent"]["mean_tangential_force_n"],
               0.1 * on["recent"]["mean_tangential_force_n"].get<double>());
 
@@ -99,8 +102,8 @@ TEST_F(WindowTest, ClickingTheFrictionToggleChangesTheForce) {
     until("friction to be back as it was",
           [](const Json& s) { return s["settings"]["friction"] == "zilles"; });
     measured();
-    const Json again = until("the hand to touch once more", touching);
-    EXPECT_GT(again["recent"]["mean_tangential_force_n"], 0.02);
+    until("the hand to rub once more",
+          [](const Json& s) { return touching(s) && s["recent"]["mean_tangential_force_n"] > 0.02; });
     expectCleanEnd();
 }
 
