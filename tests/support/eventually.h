@@ -6,9 +6,9 @@
 
 namespace touchstone::test {
 
-/// Waits for what another thread will do; false after ten seconds.
+/// Waits for what another thread will do; false after a minute.
 [[nodiscard]] inline bool eventually(const std::function<bool()>& condition) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > limit)
             return false;

@@ -120,7 +120,7 @@ int BackgroundProgram::wait(std::chrono::seconds limit) {
 int BackgroundProgram::stop() {
     if (running()) {
         kill(pid_, SIGTERM);
-        status_ = await(pid_, std::chrono::seconds(20));
+        status_ = await(pid_, std::chrono::seconds(60));
         pid_ = -1;
     }
     return status_;

@@ -5,6 +5,7 @@
 #include "engine/core/float_mode.h"
 #include "haptics/tick/stepped_hand.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/eventually.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_servo.h"
 #include "tests/unit/body/body_maker.h"
@@ -291,11 +292,11 @@ TEST(BodyTouch, ASceneWithoutBodiesMakesNone) {
     };
     const size_t without = threads();
     rig.servo.start();
-    EXPECT_EQ(threads(), without + 1); // the servo alone
+    EXPECT_TRUE(eventually([&] { return threads() == without + 1; })) << "the servo alone";
     rig.servo.stop();
     rig.offer(touchedScene("blocks.glb"));
     rig.servo.start();
-    EXPECT_EQ(threads(), without + 2); // and the finder of contacts
+    EXPECT_TRUE(eventually([&] { return threads() == without + 2; })) << "and the finder of contacts";
     rig.servo.stop();
 }
 

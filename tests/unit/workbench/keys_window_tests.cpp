@@ -275,7 +275,7 @@ TEST_F(KeysTest, ANumberThatIsTypedStopsNeitherTheForceKeyNorQuitting) {
     until("a number to be typed", [](const Json& s) { return s["typing"] == true; });
     expectSpaceTakesTheForceAway("a number");
     tap(1, 0, {"ctrl+q"});
-    for (int i = 0; i < 100 && program_->running(); ++i)
+    for (int i = 0; i < 600 && program_->running(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_FALSE(program_->running());
 }

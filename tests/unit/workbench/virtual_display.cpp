@@ -29,7 +29,7 @@ VirtualDisplay::VirtualDisplay(int width, int height) {
                                  "exec Xvfb -displayfd 3 -noreset -nolisten tcp -screen 0 " + screen +
                                      " -fbdir " + scratch_.path().string() + " 3>" + number},
         Environment{}, scratch_ / "xvfb.log");
-    for (int i = 0; i < 200 && server_->running(); ++i) {
+    for (int i = 0; i < 1200 && server_->running(); ++i) {
         const std::string answer = readFile(number);
         if (!answer.empty() && answer.back() == '\n') {
             name_ = ":" + answer.substr(0, answer.size() - 1);

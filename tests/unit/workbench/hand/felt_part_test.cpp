@@ -19,10 +19,10 @@ class FeltParts : public ::testing::Test {
   protected:
     FeltParts() { model_.haptic = floorScene(0.0f).haptic; }
 
-    /// One frame after another until the worker is done.
+    /// One frame after another until the worker is done, a minute of them at most.
     std::optional<FeltPart> made(const ScenePart& part) {
         EXPECT_TRUE(build_.start(model_, part));
-        for (int frame = 0; frame < 2000; ++frame) {
+        for (int frame = 0; frame < 60'000; ++frame) {
             if (std::optional<FeltPart> done = build_.take())
                 return done;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
