@@ -5,7 +5,10 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace touchstone {
 
@@ -13,9 +16,12 @@ namespace {
 
 PointerQueue* installed = nullptr; // GLFW's callbacks have no user data
 
+constexpr double kDoubleClick = 0.3; // s, as ImGui's own
+
 } // namespace
 
-PointerQueue::PointerQueue(GLFWwindow* window) : window_(window) {
+PointerQueue::PointerQueue(GLFWwindow* window) : window_(window), looked_(glfwGetTime()) {
+    pressed_.fill(-INFINITY);
     static_assert(std::size(decltype(ImGuiIO::MouseDown){}) == std::size(decltype(down_){}));
     installed = this;
     glfwGetCursorPos(window, &place_.x, &place_.y);
@@ -28,7 +34,10 @@ PointerQueue::PointerQueue(GLFWwindow* window) : window_(window) {
         glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int modifiers) {
             const auto index = static_cast<size_t>(button);
             if (index < installed->down_.size())
-                installed->waiting_.push_back({.button = index, .down = action == GLFW_PRESS});
+                installed->waiting_.push_back({.button = index,
+                                               .down = action == GLFW_PRESS,
+                                               .after = installed->looked_,
+                                               .before = glfwGetTime()});
             if (installed->nextButton_ != nullptr)
                 installed->nextButton_(handle, button, action, modifiers);
         });
@@ -46,11 +55,18 @@ void PointerQueue::feed() {
     for (; !waiting_.empty() && !changed; waiting_.pop_front()) {
         const Event& event = waiting_.front();
         changed = !event.move;
-        if (event.move)
+        if (event.move) {
             place_ = event.place;
-        else
-            down_[event.button] = event.down;
+            continue;
+        }
+        down_[event.button] = event.down;
+        if (event.down) {
+            const double apart =
+                event.after - std::exchange(pressed_[event.button], event.before); // at least
+            io.MouseDoubleClickTime = apart < kDoubleClick ? FLT_MAX : 0.0f;
+        }
     }
+    looked_ = glfwGetTime();
     if (changed || !waiting_.empty()) {
         std::ranges::copy(down_, io.MouseDown);
         io.MousePos = ImVec2(static_cast<float>(place_.x), static_cast<float>(place_.y));

@@ -3,9 +3,13 @@
 #include "tests/support/mesh_files.h"
 #include "tests/unit/workbench/window_test.h"
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <stop_token>
+#include <string>
+#include <thread>
 
 namespace touchstone::test::dialog_window_tests {
 namespace {
@@ -80,6 +84,29 @@ TEST_F(DialogWindow, WhatIsTypedBeforeTheFieldHasTheKeyboardIsNotLost) {
     });
     display_.key("Return");
     until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    expectCleanEnd();
+}
+
+// At three frames a second two clicks are taken by frames that lie further apart than a double click.
+TEST_F(DialogWindow, ADoubleClickIsOneHoweverSlowTheFrames) {
+    open(TOUCHSTONE_ASSETS "/box.glb");
+    browse();
+    until("the home folder", [](const Json& s) { return s["widgets"].contains("file:Ring.STL"); });
+    const VirtualDisplay::Place ring = middleOf("file:Ring.STL");
+    {
+        const std::jthread slow([&](const std::stop_token& stop) {
+            while (!stop.stop_requested()) {
+                program_->send(SIGSTOP);
+                std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                program_->send(SIGCONT);
+                std::this_thread::sleep_for(std::chrono::milliseconds(60));
+            }
+        });
+        display_.xdotool({"mousemove", std::to_string(ring.x), std::to_string(ring.y), "click", "--repeat",
+                          "2", "--delay", "100", "1"});
+        until("the mesh",
+              [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    }
     expectCleanEnd();
 }
 
