@@ -124,14 +124,13 @@ Thumbnail ThumbnailMaker::make(const Task& task) const {
 }
 
 ThumbnailFate ThumbnailMaker::draw(const Task& task, const std::filesystem::path& picture) const {
-    constexpr uint64_t kMaxOutput = 1 << 16; // bytes of messages, which nobody reads
     const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
     // Absolute, so that no name is parsed as an option.
     const std::vector<std::string> arguments{
         "touchstone", "render",        std::filesystem::absolute(task.file).string(), "--size", size,
         "--out",      picture.string()};
-    return fateOf(askProcess(program_.string(), arguments, limits_, FileDescriptor(), kMaxOutput,
-                             [&] { return task.stop.stop_requested() || task.cancels != cancels_; }));
+    return fateOf(askProcessInto(FileDescriptor(), program_.string(), arguments, limits_, FileDescriptor(),
+                                 [&] { return task.stop.stop_requested() || task.cancels != cancels_; }));
 }
 
 } // namespace touchstone
