@@ -113,9 +113,9 @@ void WorkbenchWindow::frame() {
     if (!timeline_.looking())
         touch_.operate(state_.settings);
     // While a recording is open the force is off: then the key only switches it off for afterwards.
-    state_.settings.forceEnabled =
-        forceKey_.settle(state_.settings.forceEnabled, !ImGui::GetIO().WantTextInput && !timeline_.looking(),
-                         forceWatch_.presses());
+    const bool writes = ImGui::GetIO().WantTextInput || dialog_.awaitsText();
+    state_.settings.forceEnabled = forceKey_.settle(state_.settings.forceEnabled,
+                                                    !writes && !timeline_.looking(), forceWatch_.presses());
     lookBack(start);
     onScreen([this] {
         keys_.feed(dialog_.awaitsText());

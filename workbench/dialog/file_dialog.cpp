@@ -28,7 +28,7 @@ void FileDialog::browse() {
     desktop_.close();
     waiting_.clear();
     stage_ = Stage::Browser;
-    awaitsText_ = true;
+    awaitsText_ = asksForFocus_ = true;
     browser_.open(request_);
 }
 
@@ -84,6 +84,7 @@ void FileDialog::choose(const std::filesystem::path& path) {
 
 void FileDialog::replace(bool yes) {
     stage_ = yes ? Stage::Closed : Stage::Browser;
+    awaitsText_ = asksForFocus_ = !yes;
     if (yes)
         choice_ = FileChoice{request_.purpose, target_};
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 
@@ -33,6 +34,8 @@ class FileDialog {
     /// The browser's text field is to have the keyboard and does not have it yet; what draws it tells.
     [[nodiscard]] bool awaitsText() const { return stage_ == Stage::Browser && awaitsText_; }
     void setAwaitsText(bool awaits) { awaitsText_ = awaits; }
+    /// Once after it was opened: the text field is to have the keyboard.
+    [[nodiscard]] bool takeAsksForFocus() { return std::exchange(asksForFocus_, false); }
     /// While it asks for a name to save under.
     [[nodiscard]] bool saves() const { return open() && request_.saves(); }
 
@@ -54,7 +57,7 @@ class FileDialog {
     FileRequest request_;
     Stage stage_ = Stage::Closed;
     std::vector<DialogProgram> waiting_; ///< those that are asked if the one before is absent, in this order
-    bool awaitsText_ = true;
+    bool awaitsText_ = false, asksForFocus_ = false;
     bool asks_ = false; ///< the first of them, once the one before has ended
     DesktopDialog desktop_;
     FileBrowser browser_;

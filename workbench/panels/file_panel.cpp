@@ -141,8 +141,8 @@ bool list(FileBrowser& browser, float height, bool moved, Widgets& widgets) {
     return opened;
 }
 
-/// The text and what is done with it; true where it was entered.
-bool footer(FileDialog& dialog, Widgets& widgets) {
+/// The text and what is done with it; true where it was entered. `covered`: by a card that has the keyboard.
+bool footer(FileDialog& dialog, bool covered, Widgets& widgets) {
     FileBrowser& browser = dialog.browser();
     std::array<char, kPathBytes> text{};
     std::snprintf(text.data(), text.size(), "%s", browser.text().c_str());
@@ -153,7 +153,8 @@ bool footer(FileDialog& dialog, Widgets& widgets) {
     const bool clicked = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() &&
                          ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
     bool& focus = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("focus"), false);
-    const bool asks = ImGui::IsWindowAppearing() || std::exchange(focus, false) || clicked;
+    const bool opened = dialog.takeAsksForFocus() || ImGui::IsWindowAppearing();
+    const bool asks = opened || std::exchange(focus, false) || clicked;
     if (asks)
         ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-(beside + kinds));
@@ -161,7 +162,7 @@ bool footer(FileDialog& dialog, Widgets& widgets) {
         "##path", browser.request().saves() ? "name" : "part of a name, or a path (~ is home)", text.data(),
         text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     widgets.mark("openPath");
-    dialog.setAwaitsText(!ImGui::IsItemActive() && (asks || entered || dialog.awaitsText()));
+    dialog.setAwaitsText(!covered && !ImGui::IsItemActive() && (asks || entered || dialog.awaitsText()));
     if (browser.text() != text.data())
         browser.setText(text.data());
     if (!browser.request().saves()) {
@@ -211,7 +212,7 @@ void drawBrowser(FileDialog& dialog, const WidgetRect& place, bool covered, Widg
         places(dialog.browser(), height, widgets);
         ImGui::SameLine();
         const bool opened = list(dialog.browser(), height, moved, widgets);
-        if ((footer(dialog, widgets) || opened) && dialog.open())
+        if ((footer(dialog, covered, widgets) || opened) && dialog.open())
             dialog.enter();
         ImGui::GetIO().WantCaptureKeyboard = true; // the arrows do not move the camera in this frame
     }
