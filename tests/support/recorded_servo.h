@@ -37,7 +37,8 @@ class RecordedServo {
   public:
     using Hand = std::function<DeviceSample(double time)>;
 
-    /// The hands are called on the servo's thread and must not throw.
+    /// The hands are called on the servo's thread, or on this one by steps(), and must not throw. One servo
+    /// makes its ticks in one of both ways.
     explicit RecordedServo(Hand hand, const ServoConfig& config = kQuick)
         : RecordedServo(std::vector<Hand>{std::move(hand)}, config) {}
     explicit RecordedServo(std::vector<Hand> hands, const ServoConfig& config = kQuick);

@@ -91,11 +91,14 @@ TEST(ServoLoop, TouchesTheSceneAndEndsWithAZeroCommand) {
     steps.offerScene(floorAt(0.0f));
     for (uint64_t tick = 0; tick < 600; ++tick)
         (void)steps.step(tick);
-    size_t pushed = 0;
-    for (size_t i = 0; i < stepped.next; ++i)
-        if (stepped.commands[i].force().y > 0.0)
-            ++pushed;
-    EXPECT_GT(pushed, 50u);
+    const auto pushed = [](const BouncingHand& of) {
+        size_t count = 0;
+        for (size_t i = 0; i < of.next; ++i)
+            if (of.commands[i].force().y > 0.0)
+                ++count;
+        return count;
+    };
+    EXPECT_GT(pushed(stepped), 50u);
 
     BouncingHand hand;
     ServoLoop loop(hand.port(), kQuick);
@@ -104,6 +107,7 @@ TEST(ServoLoop, TouchesTheSceneAndEndsWithAZeroCommand) {
     hand.waitFor(600);
     loop.stop();
     ASSERT_GT(hand.next, 0u);
+    EXPECT_GT(pushed(hand), 0u);
     EXPECT_EQ(hand.next, loop.counters().ticks + 1) << "one command a tick and the last";
     EXPECT_EQ(hand.commands[hand.next - 1].force(), glm::dvec3(0.0));
 }

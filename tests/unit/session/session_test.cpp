@@ -135,6 +135,7 @@ TEST_F(SessionTest, OffersEachSceneBeforeItsTicksAndAgainWithANewFile) {
     session_.stop();
     session_.pump(0.0);
     EXPECT_EQ(session_.scene().number, after);
+    EXPECT_EQ(one_.records.size(), 2 * session_.servo().counters().ticks) << "of both hands, while it ran";
     EXPECT_EQ(one_.records.front().scene, before);
     EXPECT_EQ(one_.records.back().scene, after);
     EXPECT_EQ(first_.sent, glm::dvec3(0.0)) << "at the end";

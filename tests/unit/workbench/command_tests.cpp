@@ -57,6 +57,8 @@ TEST(CommandLine, EveryCommandHasItsOwnHelp) {
         EXPECT_FALSE(result.out.empty()) << command;
     }
     EXPECT_TRUE(contains(runProgram({kProgram, "touch", "--help"}).out, "proxyRadius"));
+    EXPECT_TRUE(contains(runProgram({kProgram, "study", "merge", "--help"}).out,
+                         "Usage: touchstone study merge [OPTIONS] PART..."));
     EXPECT_FALSE(contains(runProgram({kProgram, "bench", "--help"}).out, "--set")) << "it takes none";
 }
 

@@ -103,11 +103,12 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
     for (const auto& [at, taken] : taps) {
         const auto begin = std::upper_bound(ticks.begin(), ticks.end(), at,
                                             [](double t, const Tick& tick) { return t < tick.time; });
-        // Under this load the X server itself may take 45 ms: what it takes is not the program's.
-        constexpr double kSoon = 0.05; // s
+        // Under this load the X server and tap_key may wait 45 ms: that is not the program's. Ticks and
+        // not time, since a process that stands still sends no force.
+        constexpr int kSoon = 50;
         auto off = begin;
-        while (off != ticks.end() && off->on && off->time < taken + kSoon)
-            ++off;
+        for (int made = 0; off != ticks.end() && off->on && made < kSoon; ++off)
+            made += off->time > taken ? 1 : 0;
         if (off == ticks.end() || off->on) {
             ++lost;
             continue;
@@ -126,9 +127,10 @@ TEST_F(KeysTest, EveryTapOfTheForceKeyTakesEffectUnderLoad) {
     std::ranges::sort(untilOff);
     std::ranges::sort(untilZero);
     std::printf("%zu of %d taps took a force away\n", untilZero.size(), count);
-    std::printf(
-        "to the tick without: median %.2f ms, most %.2f ms, of which at most %.2f ms in the X server\n",
-        1e3 * untilOff[untilOff.size() / 2].first, 1e3 * untilOff.back().first, 1e3 * untilOff.back().second);
+    std::printf("to the tick without: median %.2f ms, most %.2f ms, of which at most %.2f ms in the X server "
+                "and in tap_key\n",
+                1e3 * untilOff[untilOff.size() / 2].first, 1e3 * untilOff.back().first,
+                1e3 * untilOff.back().second);
     std::printf("to a command of zero: median %.2f ms, most %.2f ms\n", 1e3 * untilZero[untilZero.size() / 2],
                 1e3 * untilZero.back());
 }
