@@ -1,5 +1,5 @@
 """stalled.py RUNS STOPS PROGRAM [ARGUMENT...]: the program, which in turn runs for about RUNS s and stands still for about STOPS s, each of them
-up to twice as long at random; for tools/test-stalls. Its exit status is the program's."""
+up to twice as long at random; for tools/test-stalls. Its exit status is 0 where the program's is."""
 
 import random, signal, subprocess, sys, time
 
