@@ -12,6 +12,7 @@
 #include "haptics/surface/program_surface.h"
 #include "haptics/tick/felt_force.h"
 #include "haptics/tick/object_step.h"
+#include "haptics/tick/publish_touch.h"
 
 #include <cmath>
 #include <type_traits>
@@ -19,16 +20,6 @@
 namespace touchstone {
 
 namespace {
-
-void publishProxy(const Similarity& workspaceFromReference, const DeviceState& state, const SolveResult& rest,
-                  HapticOutput& output) {
-    output.proxy = workspaceFromReference.point(state.proxy);
-    output.penetration = glm::length(output.proxy - output.hip);
-    output.iterations = rest.iterations;
-    output.friction = state.friction;
-    if (state.friction != FrictionState::Free)
-        output.stictionPoint = workspaceFromReference.point(state.stictionPoint);
-}
 
 /// True where no material of the scene needs stages 4 to 6.
 [[gnu::always_inline]] inline bool callsForNoEffect(const HapticScene& scene,
@@ -59,26 +50,6 @@ template <class Solver, class Stopwatch>
     proxy.moveTowards(first.goal);
     stopwatch.lap(Stage::Proxy);
     shadeTwoPass(tick.scene, tick.motions, tick.settings, hip, first, proxy, state, state.rest);
-}
-
-/// In the workspace, as much of it as the device bears. Pushes the objects that are touched.
-inline void publishForce(const HandTick& tick, const Similarity& workspaceFromReference, const Felt& felt,
-                         const glm::dvec3& travel, WorldState& world, HapticOutput& output) {
-    if (tick.limits.press < INFINITY) [[unlikely]]
-        output.borne = yieldingShare(felt.share * felt.force, tick.limits.press);
-    const double share = felt.share * output.borne;
-    output.force = workspaceFromReference.direction(felt.force);
-    if (share < 1.0)
-        output.force *= share;
-    if (tick.parts != nullptr && felt.object >= 0) [[unlikely]] {
-        const double born = bornByDevice(tick, felt, share);
-        pushObjects(workspaceFromReference, felt.force, born,
-                    {.velocity = travel / tick.dt,
-                     .stiffness = share * felt.stiffness,
-                     .most = tick.limits.maxForce,
-                     .wanted = born > 0.0 ? share / born : 1.0},
-                    *tick.parts, world);
-    }
 }
 
 /// Stages 2 to 7 for a hand whose position is known. Solver: ProxySolver or ComparisonSolver, stages 2 and 3.

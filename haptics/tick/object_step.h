@@ -1,6 +1,6 @@
 #pragma once
 // What the tick of a hand does to objects: it pushes them, takes hold of bodies and lets them go, and takes
-// solids away. Only haptic_step.cpp includes this file. Out of line: code that a scene may not need must not
+// solids away. A part of haptic_step.cpp alone. Out of line: code that a scene may not need must not
 // take registers from code that it needs.
 
 #include "haptics/tick/felt_force.h"
