@@ -12,7 +12,7 @@
 #include "haptics/surface/program_surface.h"
 #include "haptics/tick/felt_force.h"
 #include "haptics/tick/object_step.h"
-#include "haptics/tick/publish_touch.h"
+#include "haptics/tick/publish_force.h"
 
 #include <cmath>
 #include <type_traits>
@@ -20,6 +20,16 @@
 namespace touchstone {
 
 namespace {
+
+void publishProxy(const Similarity& workspaceFromReference, const DeviceState& state, const SolveResult& rest,
+                  HapticOutput& output) {
+    output.proxy = workspaceFromReference.point(state.proxy);
+    output.penetration = glm::length(output.proxy - output.hip);
+    output.iterations = rest.iterations;
+    output.friction = state.friction;
+    if (state.friction != FrictionState::Free)
+        output.stictionPoint = workspaceFromReference.point(state.stictionPoint);
+}
 
 /// True where no material of the scene needs stages 4 to 6.
 [[gnu::always_inline]] inline bool callsForNoEffect(const HapticScene& scene,

@@ -1,21 +1,10 @@
 #pragma once
-// What a hand's touch gives out. A part of haptic_step.cpp alone.
+// The force that a hand's touch gives out. A part of haptic_step.cpp alone.
 
 #include "haptics/force/spring_damper.h"
 #include "haptics/tick/object_step.h"
 
 namespace touchstone {
-
-/// The proxy and its friction, in the workspace.
-inline void publishProxy(const Similarity& workspaceFromReference, const DeviceState& state,
-                         const SolveResult& rest, HapticOutput& output) {
-    output.proxy = workspaceFromReference.point(state.proxy);
-    output.penetration = glm::length(output.proxy - output.hip);
-    output.iterations = rest.iterations;
-    output.friction = state.friction;
-    if (state.friction != FrictionState::Free)
-        output.stictionPoint = workspaceFromReference.point(state.stictionPoint);
-}
 
 /// The force, in the workspace, as much of it as the device bears. Pushes the objects that are touched.
 /// `travel`: m, of the hand since the preceding tick.
