@@ -33,6 +33,10 @@ class DialogWindow : public WindowTest {
         environment_.emplace_back("PATH=" + (scratch_ / "bin").string() + ":/usr/bin:/bin");
         environment_.emplace_back("TOUCHSTONE_FILE_DIALOG=zenity");
     }
+    void untilRingIsOpen() {
+        until("the mesh",
+              [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    }
     void browse() {
         display_.key("ctrl+o");
         until("the browser", [](const Json& s) { return s["widgets"].contains("openPath"); });
@@ -55,7 +59,7 @@ TEST_F(DialogWindow, AMeshIsChosenInTheBrowserAndAProblemLeavesItThere) {
         return s["widgets"].contains("file:Ring.STL") && !s["widgets"].contains("file:broken.ply");
     });
     display_.key("Return");
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     (void)display_.waitForWindow("Ring.STL");
 
     openByPath("~/broken.ply");
@@ -82,7 +86,7 @@ TEST_F(DialogWindow, WhatIsTypedBeforeTheFieldHasTheKeyboardIsNotLost) {
         return s["widgets"].contains("file:Ring.STL") && !s["widgets"].contains("file:broken.ply");
     });
     display_.key("Return");
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     expectCleanEnd();
 }
 
@@ -102,7 +106,7 @@ TEST_F(DialogWindow, ADoubleClickIsOneHoweverSlowTheFrames) {
     });
     display_.xdotool({"mousemove", std::to_string(ring.x), std::to_string(ring.y), "click", "--repeat", "2",
                       "--delay", "100", "1"});
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     expectCleanEnd();
 }
 
@@ -115,7 +119,7 @@ TEST_F(DialogWindow, AfterAClickInTheBrowserOneTypesOn) {
     display_.xdotool({"type", "--delay", "20", "ring"});
     until("the filter", [](const Json& s) { return !s["widgets"].contains("file:broken.ply"); });
     display_.key("Return");
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     expectCleanEnd();
 }
 
@@ -136,7 +140,7 @@ TEST_F(DialogWindow, AMeshIsDroppedAndSavedAsAGlb) {
     size_ = kTall;
     open(TOUCHSTONE_ASSETS "/box.glb");
     display_.drop("Touchstone", scratch_ / "Ring.STL");
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     display_.key("e");
     until("the editor", [](const Json& s) { return s["widgets"].contains("edit.staticFriction"); });
     slide("edit.staticFriction", 0.8);
@@ -172,7 +176,7 @@ TEST_F(DialogWindow, TheDesktopsDialogIsAskedAndMayHang) {
     display_.key("Escape");
     until("nothing", [](const Json& s) { return !s["widgets"].contains("openPath"); });
     display_.key("ctrl+o");
-    until("the mesh", [](const Json& s) { return s["model"] == "Ring.STL" && !s["loading"].get<bool>(); });
+    untilRingIsOpen();
     expectCleanEnd();
 }
 

@@ -1,3 +1,4 @@
+#include "tests/unit/workbench/gui_context.h"
 #include "workbench/screen/gui_pixels.h"
 
 #include <gtest/gtest.h>
@@ -71,25 +72,17 @@ TEST(GuiPixels, TextIsMadeForItsScale) {
 
 /// In the middle of another context's frame, which then ends as it began.
 TEST(GuiPixels, LeavesTheCurrentContextInItsFrame) {
-    ImGuiContext* window = ImGui::CreateContext();
-    ImGui::SetCurrentContext(window);
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = ImVec2(100, 100);
-    unsigned char* texels = nullptr;
-    int width = 0, height = 0;
-    io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
+    const test::GuiContext window(ImVec2(100, 100));
     ImGui::NewFrame();
     ImGui::Begin("a window");
     PixelData picture = grey(8, 8, 0);
     drawGui(picture, 1.0f, [] {});
-    EXPECT_EQ(ImGui::GetCurrentContext(), window);
+    EXPECT_EQ(ImGui::GetCurrentContext(), window.get());
     EXPECT_EQ(picture.bytes, grey(8, 8, 0).bytes);
     ImGui::End();
     ImGui::Render();
     EXPECT_THROW(drawGui(picture, 1.0f, [] { throw std::runtime_error("broken"); }), std::runtime_error);
-    EXPECT_EQ(ImGui::GetCurrentContext(), window);
-    ImGui::DestroyContext(window);
+    EXPECT_EQ(ImGui::GetCurrentContext(), window.get());
 }
 
 } // namespace

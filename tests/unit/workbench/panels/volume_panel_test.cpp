@@ -1,6 +1,7 @@
 // The slider of a volume's surface, moved by a pointer.
 #include "engine/scene/scene.h"
 #include "tests/unit/volume/made_volume.h"
+#include "tests/unit/workbench/gui_context.h"
 #include "workbench/panels/panels.h"
 
 #include <gtest/gtest.h>
@@ -22,17 +23,7 @@ std::shared_ptr<const Volume> volumeBetween(float low, float high) {
 
 class VolumePanel : public testing::Test {
   protected:
-    VolumePanel() : context_(ImGui::CreateContext()) {
-        ImGui::SetCurrentContext(context_);
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = ImVec2(400, 400);
-        unsigned char* texels = nullptr;
-        int width = 0, height = 0;
-        io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
-        show(volumeBetween(0.0f, 1000.0f), 100.0);
-    }
-    ~VolumePanel() override { ImGui::DestroyContext(context_); }
+    VolumePanel() { show(volumeBetween(0.0f, 1000.0f), 100.0); }
 
     void show(std::shared_ptr<const Volume> volume, double iso) {
         scene_.volume = std::move(volume);
@@ -72,7 +63,7 @@ class VolumePanel : public testing::Test {
         return frame();
     }
 
-    ImGuiContext* context_;
+    test::GuiContext context_{ImVec2(400, 400)};
     Scene scene_;
     PanelInput input_;
     PanelState state_;

@@ -1,4 +1,5 @@
 // The pointer as a hand: which presses of its button press on the model.
+#include "tests/unit/workbench/gui_context.h"
 #include "workbench/screen/view_control.h"
 
 #include <gtest/gtest.h>
@@ -12,17 +13,7 @@ namespace {
 
 class ViewControlTest : public testing::Test {
   protected:
-    ViewControlTest() : context_(ImGui::CreateContext()) {
-        ImGui::SetCurrentContext(context_);
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = ImVec2(400, 400);
-        unsigned char* texels = nullptr;
-        int width = 0, height = 0;
-        io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
-        open();
-    }
-    ~ViewControlTest() override { ImGui::DestroyContext(context_); }
+    ViewControlTest() { open(); }
 
     void open() {
         Bounds bounds;
@@ -51,7 +42,7 @@ class ViewControlTest : public testing::Test {
         return goal && goal->press > 0.0;
     }
 
-    ImGuiContext* context_;
+    test::GuiContext context_{ImVec2(400, 400)};
     ViewControl control_;
     ViewOptions options_;
 };
